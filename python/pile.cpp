@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <mutex>
+#include <optional>
 
+#include "app/assets/asset_library.h"
 #include "app/mission/finished_run.h"
 #include "app/pipeline/stages.h"
 #include "app/scene/build_scene.h"
 #include "kernel/base/parallel.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/geometry/fine_heaps.h"
 #include "kernel/queries/queries.h"
 #include "kernel/voids/void_map.h"
@@ -180,6 +183,10 @@ py::tuple mesh_of(const Pile& pile) {
   return py::make_tuple(take_vector(std::move(positions), {vertices, 3}), take_vector(std::move(triangles), {faces, 3}));
 }
 
+void set_sandbox(const std::optional<std::string>& folder) {
+  folder ? enter_sandbox_of_missions(*folder) : leave_sandbox();
+}
+
 }  // namespace
 
 void add_pile(py::module_& module) {
@@ -205,6 +212,9 @@ void add_pile(py::module_& module) {
   module.def("settle", &settle, py::arg("mission"), py::arg("seed") = py::none(),
              py::arg("overrides") = std::vector<std::string>(), py::arg("threads") = 0,
              "Settles the pile of a mission script. overrides: \"key=value\", as rubble run --set.");
+  module.def("set_sandbox", &set_sandbox, py::arg("folder"),
+             "From now on this process reads missions, packs and what they name only below that folder, as rubble --sandbox; "
+             "None: everywhere again. Folders given to open_pile stay open.");
   module.def("open_pile", &open_pile, py::arg("folder"), py::arg("threads") = 0,
              "The settled pile of a finished run.");
 }

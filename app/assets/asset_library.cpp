@@ -10,6 +10,8 @@
 #include "app/assets/building_assets.h"
 #include "app/assets/material_variant.h"
 #include "app/assets/placed_box.h"
+#include "kernel/base/system/disk_cache.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "scripting/packs/asset_pack.h"
 #include "scripting/sandbox/script_file.h"
 #include "scripting/schema/schema.h"
@@ -125,7 +127,11 @@ std::vector<std::string> find_mission_packs(const Mission& mission) {
   std::vector<Diagnostic> mistakes;
   for (std::size_t i = 0; i < folders.size(); ++i) {
     const std::string& name = mission.scenario.packs[i];
-    if (fs::exists(fs::path(folders[i]) / "pack.lua")) continue;
+    if (fs::exists(fs::path(folders[i]) / "pack.lua")) {
+      auto refused = find_refusal(folders[i] + "/pack.lua", {"", 0, "packs[" + std::to_string(i + 1) + "]", "", "", "", ""});
+      if (refused) mistakes.push_back(std::move(*refused));
+      continue;
+    }
     if (find_pack(name) != name)
       folders[i] = find_pack(name);
     else if (!fs::is_directory(folders[i]))
@@ -201,6 +207,13 @@ std::string bundled_assets_folder() {
                     "install the program with `cmake --install`, or set RUBBLE_ASSETS to their folder"});
 }
 
+void enter_sandbox_of_missions(const std::string& folder) {
+  const fs::path packs = bundled_assets_folder(), share = packs.parent_path();
+  std::vector<std::string> own{packs.string()};
+  if (share.filename() == "rubble") own.push_back(share.string());
+  enter_sandbox(folder, own, DiskCache::usual_folder());
+}
+
 AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>& extra_packs) {
   const std::string bundled = bundled_assets_folder();
   std::vector<std::string> folders = find_mission_packs(mission);
@@ -229,9 +242,8 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
   check_variants(mission, all);
   add_variants(mission, all, materials, library);
   add_boxes(mission, materials, library);
-  add_terrain(mission.scenario.pile.terrain, {fs::path(mission.script.path).parent_path().string()},
-              library);
   try {
+    add_terrain(mission.scenario.pile.terrain, {fs::path(mission.script.path).parent_path().string()}, library);
     add_robot_files(mission.scenario, {fs::path(mission.script.path).parent_path().string()}, library);
     add_building(building_of(mission.scenario), library);
   } catch (const InputError& error) {

@@ -73,4 +73,8 @@ std::string find_pack(const std::string& pack);
 // build; or ../share/rubble/assets from there, as installed. Throws InputError where there are none.
 std::string bundled_assets_folder();
 
+// --sandbox: as enter_sandbox() of kernel/base/system/file_sandbox.h, with the folders of the program itself: bundled packs,
+// what is installed in share/rubble, and the cache.
+void enter_sandbox_of_missions(const std::string& folder);
+
 }  // namespace rubble

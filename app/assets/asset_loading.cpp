@@ -16,6 +16,7 @@
 #include "io/robot/urdf_reader.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/mesh_edges.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/geometry/hull.h"
 #include "kernel/geometry/shape.h"
 #include "kernel/geometry/simplify_hull.h"
@@ -262,7 +263,10 @@ std::string find_urdf(const std::string& name, const std::vector<std::string>& f
   std::error_code failed;
   for (const std::string& folder : folders)
     for (const fs::path& tried : {fs::path(folder) / name, fs::path(folder) / fs::path(name).filename()}) {
-      if (fs::is_regular_file(tried, failed)) return fs::absolute(tried).lexically_normal().string();
+      if (fs::is_regular_file(tried, failed)) {
+        check_may_read(tried.string(), {"", 0, key + ".urdf", "", "", "", ""});
+        return fs::absolute(tried).lexically_normal().string();
+      }
       looked += (looked.empty() ? "" : ", ") + tried.string();
     }
   throw InputError({"", 0, key + ".urdf", "no such file", "a URDF file", "\"" + name + "\"", "looked for " + looked});

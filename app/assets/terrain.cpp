@@ -6,6 +6,7 @@
 #include "app/assets/surface_choice.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/mesh_edges.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/geometry/height_field.h"
 #include "render/materials/surface_appearance.h"
 
@@ -52,7 +53,10 @@ std::string find_file(const std::string& name, const std::vector<std::string>& f
   for (const std::string& folder : folders) {
     const fs::path path = fs::path(folder) / name;
     std::error_code failed;
-    if (fs::is_regular_file(path, failed)) return path.lexically_normal().string();
+    if (fs::is_regular_file(path, failed)) {
+      check_may_read(path.string(), {"", 0, "pile.terrain.file", "", "", "", ""});
+      return path.lexically_normal().string();
+    }
     looked += (looked.empty() ? "" : ", ") + path.string();
   }
   throw InputError({"", 0, "pile.terrain.file", "no such file", "a mesh", "\"" + name + "\"",

@@ -102,8 +102,8 @@ class Batch {
   ExitCode show_preview() const {
     const std::size_t runs = mine_.size();
     print_out("%zu runs: %zu seeds, %zu variants%s; %d at once on %d threads each\n", runs, all_.size(),
-                sweep_.variants.size(), request_.shard.empty() ? "" : (", shard " + request_.shard).c_str(), shape_.at_once,
-                shape_.threads);
+              sweep_.variants.size(), request_.shard.empty() ? "" : (", shard " + request_.shard).c_str(), shape_.at_once,
+              shape_.threads);
     for (std::size_t variant = 0; sweep_.varies() && variant < sweep_.variants.size(); ++variant) {
       if (variant == kMostListed) {
         print_out("... and %zu variants more\n", sweep_.variants.size() - variant);
@@ -187,8 +187,8 @@ class Batch {
     const std::uint64_t there = free_bytes(folder_.path());
     if (tally_.ended == 0)
       print_err("batch: %zu runs to do, %zu done before; %s %s each, %s in all; %s free\n",
-                   jobs_.size(), tally_.done_before, how, format_bytes(bytes_each).c_str(),
-                   format_bytes(needed).c_str(), format_bytes(there).c_str());
+                jobs_.size(), tally_.done_before, how, format_bytes(bytes_each).c_str(),
+                format_bytes(needed).c_str(), format_bytes(there).c_str());
     if (needed <= there || request_.of.force) return;
     throw RunError("the disk is too small for this batch: " + format_bytes(needed) + " needed (" +
                    how + ", " + format_bytes(bytes_each) + " each), " + format_bytes(there) +
@@ -255,7 +255,7 @@ class Batch {
     for (const std::string& run : failures_) {
       const std::string log = folder_.failure_log(run);
       print_err("%s failed (%s):\n%s\n", words_for(run).c_str(), log.c_str(),
-                   tail_of_log(log, 3).c_str());
+                tail_of_log(log, 3).c_str());
     }
     if (stop_requested())
       throw Stopped("stopped by a signal, with " + words() + "; the same command continues");

@@ -9,6 +9,7 @@
 #include "app/support/json_members.h"
 #include "io/base/atomic_file.h"
 #include "kernel/base/error.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/system/output_files.h"
 
 namespace rubble {
@@ -39,6 +40,7 @@ bool BatchFolder::is_at_work(const std::string& run) const {
 }
 
 void BatchFolder::open(const std::string& description) const {
+  allow_results(path_);
   make_output_folder(path_);
   const std::string file = path_ + "/batch.json";
   const FolderLock lock(path_ + "/batch.lock", FolderLock::Wait::yes);

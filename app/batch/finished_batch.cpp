@@ -5,6 +5,7 @@
 #include "app/support/json_members.h"
 #include "io/base/atomic_file.h"
 #include "kernel/base/error.h"
+#include "kernel/base/system/file_sandbox.h"
 
 namespace rubble {
 
@@ -27,6 +28,7 @@ bool is_batch_folder(const std::string& folder) {
 }
 
 FinishedBatch open_finished_batch(const std::string& folder) {
+  allow_results(folder);
   const std::string file = folder + "/batch.json", index = folder + "/index.csv";
   std::error_code failed;
   if (!is_batch_folder(folder) || !std::filesystem::exists(index, failed))

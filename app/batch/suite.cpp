@@ -16,6 +16,7 @@
 #include "io/base/atomic_file.h"
 #include "io/playback/recorded_picture.h"
 #include "io/state/pile_state_file.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/system/output_files.h"
 #include "scripting/suite_script.h"
 #include "scripting/values/value.h"
@@ -49,6 +50,8 @@ class Suite {
         out_(request.out.empty() ? "out/" + stem_ : request.out),
         golden_(fs::path(request.suite).replace_extension(".golden.json").string()),
         shape_(choose_job_shape(request.jobs, request.options.threads)) {
+    allow_results(out_);
+    if (!request.against.empty()) allow_results(request.against);
     for (const std::string& name : request.only) check_known(name);
     for (std::size_t i = 0; i < script_.runs.size(); ++i)
       if (wanted(script_.runs[i].name)) add_cases(script_.runs[i], i);
@@ -198,7 +201,7 @@ class Suite {
   void print(const CaseResult& result) const {
     if (request_.options.quiet && result.passed()) return;
     print_out("%s %s (%.1f s)\n", result.passed() ? "ok  " : "FAIL", result.name.c_str(),
-                result.seconds);
+              result.seconds);
     if (!result.error.empty())
       print_out("     %s\n%s\n", result.error.c_str(), result.log.c_str());
     for (const std::string& sentence : result.failures) print_out("     %s\n", sentence.c_str());

@@ -2,10 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
+#include "app/assets/asset_library.h"
 #include "app/command_line/command.h"
 #include "app/command_line/command_description.h"
 #include "app/command_line/program_text.h"
@@ -170,12 +172,26 @@ bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
   if (word.empty() || word[0] == '-' || known) return false;
   const std::string near = nearest_name(word, names);
   print_err("no such command: `%s`%s\n`rubble --help` lists all commands\n",
-               word.c_str(),
-               near.empty() ? "" : (" (did you mean `" + near + "`?)").c_str());
+            word.c_str(),
+            near.empty() ? "" : (" (did you mean `" + near + "`?)").c_str());
   return true;
 }
 
-using Actions = std::vector<std::pair<CLI::App*, Action>>;
+// Of every command but those that read no file.
+void add_sandbox_option(const Command& command, CommandLine& line, std::string& folder) {
+  const std::string name = command.name;
+  if (name == "completion" || name == "manual") return;
+  line.add("--sandbox", folder,
+           "For missions of strangers: read files only below this folder, and write only to the output folder")
+      .metavar("DIR");
+}
+
+struct DeclaredCommand {
+  CLI::App* command;
+  Action action;
+  std::shared_ptr<std::string> sandbox;  // --sandbox; empty: none
+};
+using Actions = std::vector<DeclaredCommand>;
 
 Actions declare_all(CLI::App& app, const std::vector<Command>& commands) {
   Actions actions;
@@ -183,7 +199,8 @@ Actions declare_all(CLI::App& app, const std::vector<Command>& commands) {
     CLI::App& group = find_group(app, command.group);
     CLI::App* const added = group.add_subcommand(command.name, command.summary);
     CommandLine line(*added);
-    actions.emplace_back(added, command.declare(line));
+    actions.push_back({added, command.declare(line), std::make_shared<std::string>()});
+    add_sandbox_option(command, line, *actions.back().sandbox);
   }
   return actions;
 }
@@ -216,7 +233,7 @@ std::vector<CommandDescription> describe_commands(const std::vector<Command>& co
     const std::string group = commands[i].group;
     CommandDescription text{(group.empty() ? "" : group + " ") + commands[i].name,
                             commands[i].summary, {}};
-    const CLI::App* const command = actions[i].first;
+    const CLI::App* const command = actions[i].command;
     for (const bool by_place : {true, false})
       for (const CLI::Option* const option : command->get_options())
         if (option->get_positional() == by_place) text.options.push_back(describe(*option));
@@ -249,8 +266,11 @@ ExitCode run_command_line(int argc, char** argv, const std::vector<Command>& com
     print_err("%s", err.str().c_str());
     return code == 0 ? ExitCode::done : ExitCode::bad_input;
   }
-  for (const auto& [command, action] : actions)
-    if (*command) return action();
+  for (const DeclaredCommand& declared : actions) {
+    if (!*declared.command) continue;
+    if (!declared.sandbox->empty()) enter_sandbox_of_missions(*declared.sandbox);
+    return declared.action();
+  }
   return ExitCode::bad_input;
 }
 

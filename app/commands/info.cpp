@@ -43,15 +43,15 @@ ExitCode print_info(const InfoRequest& request) {
   const BuildInfo build = build_info();
   print_out("rubble        %s (%s)\n", build.version.c_str(), build.commit.c_str());
   print_out("built with    %s, %s, for %s\n", build.compiler.c_str(), build.flags.c_str(),
-              build.target.c_str());
+            build.target.c_str());
   print_out("threads       %d\n", default_thread_count());
   for (const auto& [name, version] : build.libraries)
     print_out("%-13s %s\n", name.c_str(), version.c_str());
   print_out("Simbody bits  %s\n",
-              build.simbody_bits == "reference"
-                  ? "reference: piles with joints are the same on every machine that says so"
-                  : "other: piles with joints differ in last bits from those of x86-64; see "
-                    "docs/explanation/determinism.md");
+            build.simbody_bits == "reference"
+                ? "reference: piles with joints are the same on every machine that says so"
+                : "other: piles with joints differ in last bits from those of x86-64; see "
+                  "docs/explanation/determinism.md");
   print_out("live ROS 1    %s\n", describe_ros1().c_str());
   print_out("live ROS 2    %s\n", describe_ros2().c_str());
   std::fflush(stdout);  // the versions are worth having even if EGL fails below

@@ -15,6 +15,7 @@
 #include "io/playback/recording_check.h"
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/text.h"
 
 namespace rubble {
@@ -40,7 +41,7 @@ std::uint64_t size_of(const std::string& path) {
 
 void print_row(const std::string& name, const FileReport& report) {
   print_out("%-24s %-12s %s\n", name.c_str(), kFileVerdictNames[int(report.verdict)],
-              report.detail.c_str());
+            report.detail.c_str());
 }
 
 bool is_sound(FileVerdict verdict) {
@@ -60,11 +61,11 @@ std::optional<std::string> stated_hash(const std::string& path) {
 
 void print_summary(const Manifest& m) {
   print_out("script                   %s, seed %llu, by rubble %s (%s)\n",
-              m.provenance.script.path.c_str(), static_cast<unsigned long long>(m.seed),
-              m.program.version.c_str(), m.program.commit.c_str());
+            m.provenance.script.path.c_str(), static_cast<unsigned long long>(m.seed),
+            m.program.version.c_str(), m.program.commit.c_str());
   print_out("pile                     %lld pieces, %s, state hash %s\n",
-              static_cast<long long>(m.pile.pieces), m.pile.settled ? "at rest" : "not at rest",
-              m.pile.state_hash.c_str());
+            static_cast<long long>(m.pile.pieces), m.pile.settled ? "at rest" : "not at rest",
+            m.pile.state_hash.c_str());
   print_out("frames                   %zu\n", m.frames.frames.size());
 }
 
@@ -116,7 +117,7 @@ bool print_batch(const std::string& folder) {
       by_state[batch.state_of(name)].push_back(sweep.varies() ? name : "seed " + number);
     }
   print_out("batch                    %s, seeds %s\n",
-              printable(members.object("script").text("name")).c_str(), seeds.c_str());
+            printable(members.object("script").text("name")).c_str(), seeds.c_str());
   for (const auto& [state, name] :
        {std::pair(RunState::done, "done"), std::pair(RunState::failed, "failed"),
         std::pair(RunState::unfinished, "unfinished"), std::pair(RunState::missing, "not begun")}) {
@@ -134,6 +135,7 @@ bool print_batch(const std::string& folder) {
 }
 
 bool print_folder(const std::string& folder) {
+  allow_results(folder);
   const std::string file = folder + "/manifest.json";
   std::error_code failed;
   if (!fs::exists(file, failed) && fs::exists(folder + "/batch.json", failed))

@@ -9,6 +9,7 @@
 #include "app/provenance/compare.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
+#include "kernel/base/system/file_sandbox.h"
 
 namespace rubble {
 namespace {
@@ -46,7 +47,7 @@ ExitCode report(const Manifest& was, const Manifest& is) {
   for (const std::string& sentence : apart) print_out("differs: %s\n", sentence.c_str());
   if (apart.empty()) {
     print_out("the same: state hash %s, %zu frames, %zu files\n", is.pile.state_hash.c_str(),
-                is.frames.frames.size(), is.outputs.size());
+              is.frames.frames.size(), is.outputs.size());
     return ExitCode::done;
   }
   for (const std::string& line : describe_differences(was.program, is.program))
@@ -55,7 +56,7 @@ ExitCode report(const Manifest& was, const Manifest& is) {
     const auto before = was.environment.find(name);
     if (name != "threads" && before != was.environment.end() && before->second != value)
       print_out("here is %s %s instead of %s\n", name.c_str(), value.c_str(),
-                  before->second.c_str());
+                before->second.c_str());
   }
   print_out("not the same\n");
   return ExitCode::differs;
@@ -66,6 +67,7 @@ ExitCode remake(const RemakeRequest& request) {
   stop_on_signals();
   std::error_code failed;
   const bool is_folder = fs::is_directory(request.manifest, failed);
+  if (is_folder) allow_results(request.manifest);
   const std::string path = request.manifest + (is_folder ? "/manifest.json" : "");
   const Manifest was = load_manifest(path);
   if (fs::equivalent(fs::absolute(path).parent_path(), request.out, failed))

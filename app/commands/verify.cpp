@@ -22,6 +22,7 @@
 #include "io/playback/recording_check.h"
 #include "io/state/pile_state_file.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/system/output_files.h"
 #include "scripting/values/value.h"
 
@@ -74,6 +75,7 @@ class WorkFolder {
 class Verifier {
  public:
   explicit Verifier(const VerifyRequest& request) : request_(request) {
+    allow_results(request.of.folder);
     const std::string path = request.of.folder + "/manifest.json";
     if (!fs::exists(path) && is_unfinished(request.of.folder))
       throw InputError({request.of.folder, 0, "", "the run in it is not finished", "", "",

@@ -121,7 +121,7 @@ std::vector<std::function<void()>> list_jobs(const VoidMap& map, int surfaces,
 
 void print_summary(const VoidMap& map) {
   print_out("%-8s %6s %11s %11s %9s %9s %9s\n", "radius", "voids", "volume", "reachable",
-              "entrances", "longest", "deepest");
+            "entrances", "longest", "deepest");
   for (const RobotVoids& robot : map.robots) {
     std::size_t entrances = 0;
     double longest = 0, deepest = 0;
@@ -131,8 +131,8 @@ void print_summary(const VoidMap& map) {
       deepest = std::max(deepest, v.depth);
     }
     print_out("%6.3f m %6zu %8.3f m3 %8.3f m3 %9zu %7.2f m %7.2f m\n", robot.radius,
-                robot.voids.size(), robot.volume, robot.reachable_volume, entrances, longest,
-                deepest);
+              robot.voids.size(), robot.volume, robot.reachable_volume, entrances, longest,
+              deepest);
     if (robot.voids.empty())
       print_err("no void has room for a robot of radius %g m\n", robot.radius);
   }

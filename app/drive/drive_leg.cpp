@@ -7,8 +7,9 @@
 #include "app/pipeline/recorders.h"
 #include "app/sensors/build_camera.h"
 #include "io/base/atomic_file.h"
-#include "kernel/base/system/output_files.h"
 #include "io/state/track_file.h"
+#include "kernel/base/system/file_sandbox.h"
+#include "kernel/base/system/output_files.h"
 
 namespace rubble {
 namespace {
@@ -106,6 +107,7 @@ void DriveLeg::finish() {
 }
 
 void prepare_drive_folder(const std::string& folder, bool force) {
+  allow_output(folder);
   make_output_folder(folder);
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (!is_of_a_drive(entry.path())) continue;

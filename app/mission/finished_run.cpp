@@ -8,6 +8,7 @@
 #include "io/base/atomic_file.h"
 #include "io/state/pile_state_file.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/system/file_sandbox.h"
 
 namespace rubble {
 
@@ -22,6 +23,7 @@ Manifest load_manifest(const std::string& path) {
 }
 
 FinishedRun open_finished_run(const std::string& folder) {
+  allow_results(folder);
   const std::string path = folder + "/manifest.json";
   std::error_code failed;
   if (!std::filesystem::is_directory(folder, failed))

@@ -73,15 +73,15 @@ ExitCode report(const ResolvedMission& mission, const PileState& pile, const Run
   if (pile.settled) {
     if (depth > kNotedOverlap) {
       print_err("warning: %s; settle.rest_overlap = %g m allows it\n",
-                   describe_overlap(pile).c_str(), options.rest_overlap);
+                describe_overlap(pile).c_str(), options.rest_overlap);
     }
     return lost ? ExitCode::did_not_settle : ExitCode::done;
   }
   const std::string why =
       depth > options.rest_overlap ? describe_overlap(pile) : describe_moving(pile);
   print_err("the pile did not settle: %s when the time limit came "
-               "(settle.final_time_limit = %g s)\n",
-               why.c_str(), options.final_time_limit);
+            "(settle.final_time_limit = %g s)\n",
+            why.c_str(), options.final_time_limit);
   return ExitCode::did_not_settle;
 }
 

@@ -9,6 +9,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/read_file.h"
 
 namespace rubble {
 namespace {
@@ -81,6 +82,7 @@ std::string describe_piece(const PileState& pile, std::size_t i) {
 }
 
 std::ifstream open_to_compare(const std::string& path) {
+  check_readable_file(path);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw RunError("cannot read " + path);
   return in;

@@ -11,6 +11,7 @@
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/parallel.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/system/output_files.h"
 
 namespace rubble {
@@ -60,6 +61,7 @@ bool is_unfinished(const std::string& folder) {
 
 // Whoever waited for the lock looks again: what was there may be finished, or begun, by now.
 RunFolder RunFolder::create(const std::string& path, bool force) {
+  allow_output(path);
   refuse_unfinished(path, force);
   std::error_code failed;
   const bool left = fs::is_directory(path + "/unfinished", failed);
@@ -79,6 +81,7 @@ RunFolder RunFolder::create(const std::string& path, bool force) {
 }
 
 RunFolder RunFolder::open_unfinished(const std::string& path) {
+  allow_output(path);
   if (is_unfinished(path)) {
     make_folder_below(path, "unfinished");  // which is there: it must be no link
     RunFolder folder(path);

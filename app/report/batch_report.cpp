@@ -9,9 +9,11 @@
 
 #include "app/batch/finished_batch.h"
 #include "app/report/html_text.h"
+#include "app/report/score_means.h"
 #include "app/report/svg_plot.h"
 #include "io/image/image_file.h"
 #include "io/image/jpeg_file.h"
+#include "io/recording/contact_sheet.h"
 
 namespace rubble {
 namespace {
@@ -22,7 +24,7 @@ constexpr std::size_t kMostPlots = 200;
 // Sorts by a column where its head is clicked, and by the one that the address names: #sort=NAME or,
 // downwards, #sort=-NAME.
 constexpr const char* kSorter = R"(
-const table = document.querySelector('table'), heads = [...table.tHead.rows[0].cells];
+const table = document.querySelector('table.runs'), heads = [...table.tHead.rows[0].cells];
 let last = null;
 function sortBy(column, down) {
   const value = row => row.cells[column].dataset.value ?? row.cells[column].textContent;
@@ -149,25 +151,34 @@ RgbImage shrink(const RgbImage& image, int width) {
   return small;
 }
 
+// The middle one of the colour pictures in the run's contact sheet, at its own size; of another picture all of it.
+RgbImage choose_picture(const std::string& file, int width) {
+  RgbImage sheet = read_rgb_png(file);
+  std::vector<RgbImage> tiles = cut_colour_tiles(sheet);
+  return shrink(tiles.empty() ? sheet : tiles[tiles.size() / 2], width);
+}
+
 std::string picture(const Report& report, const std::vector<std::string>& row) {
-  const std::string run = report.run_of(row), file = report.folder + "/" + run + "/preview.png";
+  const std::string run = report.run_of(row), sheet = run + "/preview.png", file = report.folder + "/" + sheet;
   std::error_code failed;
   if (!fs::is_regular_file(file, failed)) return "";
-  const RgbImage image = shrink(read_rgb_png(file), report.options.width);
-  std::string caption = run;
+  const RgbImage image = choose_picture(file, report.options.width);
+  std::string values;
   for (const std::string& key : report.varied)
     if (const int column = report.table.find(key); column >= 0)
-      caption += ", " + key + " = " + row[std::size_t(column)];
-  return "<figure><a href=\"" + url_escape(report.options.way + run) + "/\"><img loading=\"lazy\" alt=\"" + html_escape(run) +
+      values += ", " + key + " = " + row[std::size_t(column)];
+  if (report.status_of(row) != "done") values += ", " + report.status_of(row);
+  const std::string way = url_escape(report.options.way);
+  return "<figure><a href=\"" + way + url_escape(sheet) + "\"><img loading=\"lazy\" decoding=\"async\" alt=\"" + html_escape(run) +
          "\" width=\"" + std::to_string(image.width) + "\" height=\"" + std::to_string(image.height) +
-         "\" src=\"data:image/jpeg;base64," +
-         base64(encode_jpeg(image.width, image.height, image.rgb.data(), 80)) +
-         "\"></a><figcaption>" + html_escape(caption) + "</figcaption></figure>\n";
+         "\" src=\"data:image/jpeg;base64," + base64(encode_jpeg(image.width, image.height, image.rgb.data(), 80)) +
+         "\"></a><figcaption><a href=\"" + way + url_escape(run) + "/\">" + html_escape(run) + "</a>" + html_escape(values) +
+         "</figcaption></figure>\n";
 }
 
 std::string pictures(const Report& report) {
   std::string text;
-  int count = 0, left_out = 0;
+  int count = 0, left_out = 0, without = 0;
   for (const auto& row : report.table.rows) {
     if (report.status_of(row) != "done" && report.status_of(row) != "did_not_settle") continue;
     if (count >= report.options.pictures) {
@@ -175,12 +186,14 @@ std::string pictures(const Report& report) {
       continue;
     }
     const std::string one = picture(report, row);
-    count += !one.empty();
+    ++(one.empty() ? without : count);
     text += one;
   }
   if (text.empty()) return "";
-  return "<h2>Pictures</h2>\n<div class=\"pictures\">\n" + text + "</div>\n" +
-         (left_out ? "<p>" + std::to_string(left_out) + " more runs have none here (--pictures).</p>\n" : "");
+  return "<h2>Pictures</h2>\n<p>The middle one of the frames in each run's contact sheet, which a click opens.</p>\n"
+         "<div class=\"pictures\">\n" + text + "</div>\n" +
+         (without ? "<p>Runs without a contact sheet (outputs.preview): " + std::to_string(without) + ".</p>\n" : "") +
+         (left_out ? "<p>Further runs, without pictures here (--pictures): " + std::to_string(left_out) + ".</p>\n" : "");
 }
 
 std::string cell(const Report& report, const std::vector<std::string>& row, std::size_t c) {
@@ -193,7 +206,7 @@ std::string cell(const Report& report, const std::vector<std::string>& row, std:
 }
 
 std::string table(const Report& report) {
-  std::string text = "<h2>Table</h2>\n<div class=\"scroll\"><table>\n<thead><tr>";
+  std::string text = "<h2>Table</h2>\n<div class=\"scroll\"><table class=\"runs\">\n<thead><tr>";
   for (const std::string& column : report.table.columns)
     text += "<th scope=\"col\">" + html_escape(column) + "</th>";
   text += "</tr></thead>\n<tbody>\n";
@@ -221,8 +234,9 @@ std::string summary(const Report& report) {
 
 std::string make_batch_report(const std::string& folder, const ReportOptions& options) {
   const Report report = read_report(folder, options);
-  return make_page(report.mission + ": batch", summary(report) + histograms(report) + scatters(report) +
-                                                    pictures(report) + table(report),
+  return make_page(report.mission + ": batch",
+                   summary(report) + make_mean_tables(report, report.varied, columns_to_plot(report)) + pictures(report) +
+                       histograms(report) + scatters(report) + table(report),
                    kSorter);
 }
 

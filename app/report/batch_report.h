@@ -1,4 +1,4 @@
-// One web page about a batch: its table, plots of it, and a picture of every run.
+// One web page about a batch: means of its scores, plots, a picture of every run, and its table.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 namespace rubble {
 
 struct ReportOptions {
-  int pictures = 60;  // at most; the first of the table
-  int width = 320;    // of a picture; unit: pixel
+  int pictures = 1000;  // at most; the first of the table
+  int width = 320;      // of a picture, at most; unit: pixel
   std::string way;    // from where the page lies to the batch, ending in "/"; empty: beside index.csv
 };
 

@@ -11,16 +11,19 @@ constexpr const char* kStyle = R"(
 body { font: 15px/1.45 system-ui, sans-serif; margin: 1.5rem auto; max-width: 80rem; padding: 0 1rem;
   color: #1b1b1b; background: #fcfcfb; }
 h1 { font-size: 1.5rem; } h2 { font-size: 1.15rem; margin-top: 2rem; }
+h3 { font-size: 1rem; margin: 1.2rem 0 .4rem; } p { max-width: 60rem; }
 .plots, .pictures { display: flex; flex-wrap: wrap; gap: .8rem; }
-figure { margin: 0; } figcaption { font-size: .8rem; max-width: 20rem; overflow-wrap: anywhere; }
-svg text { font: 10px system-ui, sans-serif; fill: currentColor; }
+figure { margin: 0; content-visibility: auto; } figcaption { font-size: .8rem; max-width: 20rem; overflow-wrap: anywhere; }
+small { display: block; font-size: .75rem; opacity: .75; }
+svg text { font: 11px system-ui, sans-serif; fill: currentColor; }
 svg .axis { stroke: currentColor; opacity: .5; } svg .bar { fill: #3b6ea5; }
 svg .dot { fill: #3b6ea5; fill-opacity: .7; } svg .dot.bad { fill: #c0392b; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-size: .85rem; font-variant-numeric: tabular-nums; }
 th, td { padding: .2rem .5rem; border-bottom: 1px solid #8884; text-align: right; white-space: nowrap; }
-th { cursor: pointer; position: sticky; top: 0; background: #eceae6; }
-td.text, th.text { text-align: left; } tr.bad td { color: #c0392b; }
+th { position: sticky; top: 0; background: #eceae6; }
+.runs th { cursor: pointer; } .means td, .means th { vertical-align: top; }
+.means td:first-child, .means th:first-child { text-align: left; } td.text, th.text { text-align: left; } tr.bad td { color: #c0392b; }
 @media (prefers-color-scheme: dark) {
   body { color: #e8e6e3; background: #1b1c1d; } th { background: #2c2e30; } a { color: #8ab4f8; } }
 )";

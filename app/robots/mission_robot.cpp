@@ -6,6 +6,7 @@
 #include "app/robots/urdf_robot.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/robot/bundled.h"
 
 namespace rubble {
@@ -49,7 +50,10 @@ std::string find_file(const std::string& name, const std::vector<std::string>& f
   std::error_code failed;
   for (const std::string& folder : folders)
     for (const fs::path& tried : {fs::path(folder) / name, fs::path(folder) / fs::path(name).filename()}) {
-      if (fs::is_regular_file(tried, failed)) return tried.lexically_normal().string();
+      if (fs::is_regular_file(tried, failed)) {
+        check_may_read(tried.string(), {"", 0, key + ".urdf", "", "", "", ""});
+        return tried.lexically_normal().string();
+      }
       looked += (looked.empty() ? "" : ", ") + tried.string();
     }
   throw InputError({"", 0, key + ".urdf", "no such file", "a URDF file", "\"" + name + "\"",

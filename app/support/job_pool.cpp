@@ -19,6 +19,7 @@
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
 #include "kernel/base/error.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/system/thread_count.h"
 #include "kernel/base/system/output_files.h"
 
@@ -64,6 +65,12 @@ void note_death(const std::string& log, int status) {
   _exit(127);
 }
 
+// What this process may not read or write, its jobs may not either.
+std::vector<std::string> sandbox_arguments() {
+  const std::string folder = sandbox_folder();
+  return folder.empty() ? std::vector<std::string>() : std::vector<std::string>{"--sandbox", folder};
+}
+
 pid_t start(const Job& job) {
   std::error_code failed;
   const std::string program = std::filesystem::read_symlink("/proc/self/exe", failed).string();
@@ -74,6 +81,8 @@ pid_t start(const Job& job) {
   std::vector<char*> arguments{const_cast<char*>(program.c_str())};
   for (const std::string& argument : job.arguments)
     arguments.push_back(const_cast<char*>(argument.c_str()));
+  const std::vector<std::string> sandbox = sandbox_arguments();
+  for (const std::string& argument : sandbox) arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
   const int log = create_log_file(job.log);
   const pid_t parent = getpid(), child = fork();
@@ -123,7 +132,7 @@ class Pool {
         if (waitpid(pid, &status, WNOHANG | WUNTRACED) != pid) continue;
         if (WIFSTOPPED(status)) {
           print_err("process %d was suspended by %s; `kill -CONT %d` continues it\n",
-                       int(pid), signal_words(WSTOPSIG(status)).c_str(), int(pid));
+                    int(pid), signal_words(WSTOPSIG(status)).c_str(), int(pid));
           continue;
         }
         note_death(job.log, status);

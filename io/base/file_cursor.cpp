@@ -9,7 +9,7 @@ namespace rubble {
 
 FileCursor::FileCursor(const std::string& path) {
   std::error_code failed;
-  refuse_endless_file(path);
+  check_readable_file(path);
   in_.open(path, std::ios::binary);
   size_ = std::filesystem::file_size(path, failed);
   if (!in_ || failed)

@@ -78,7 +78,7 @@ void read_channel(Imf::InputFile& file, const std::string& name, int width, int 
 }
 
 ExrImage import_exr(const std::string& path, const std::vector<std::string>& channels) {
-  refuse_endless_file(path);
+  check_readable_file(path);
   try {
     Imf::InputFile file(path.c_str(), 0);
     const auto window = file.header().dataWindow();

@@ -13,6 +13,7 @@
 #include "kernel/base/hash.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/read_file.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/text.h"
 
 namespace rubble {
@@ -160,7 +161,7 @@ std::string sha256_of(std::string_view bytes) {
 }  // namespace
 
 MeshPaints::MeshPaints(const ImportedScene& scene, const std::string& path)
-    : scene_(scene), folder_(fs::path(path).parent_path().string()) {
+    : scene_(scene), mesh_path_(path), folder_(fs::path(path).parent_path().string()) {
   std::vector<Vec3f> colours;
   for (const ImportedMesh& mesh : scene.meshes) {
     if (mesh.triangles.empty()) continue;
@@ -290,8 +291,11 @@ MeshPaints::Image MeshPaints::load(const ImportedImage& image) {
     if (image.bytes) return {decode_picture(*image.bytes), sha256_of(*image.bytes)};
     const auto found = find_beside(folder_, image.name, "textures");
     if (!found) throw RunError("lies neither beside the mesh nor in its folder textures");
+    check_may_read(*found, {mesh_path_, 0, "the image " + shown, "", "", "", ""});
     const std::string bytes = read_file(*found, kLargestFile);
     return {decode_picture(bytes), sha256_of(bytes)};
+  } catch (const RefusedFile&) {
+    throw;
   } catch (const std::exception& error) {
     note("the image " + shown + " " + error.what());
     return {};

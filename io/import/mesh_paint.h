@@ -36,7 +36,7 @@ class MeshPaints {
   void note(const std::string& text);
 
   const ImportedScene& scene_;
-  std::string folder_;
+  std::string mesh_path_, folder_;
   bool any_ = false;
   std::map<int, std::shared_ptr<const SurfacePaint>> paints_;  // by material
   std::map<int, std::shared_ptr<const Image>> images_;         // by index in the scene

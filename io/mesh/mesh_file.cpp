@@ -13,6 +13,7 @@
 #include "io/mesh/mesh_bytes.h"
 #include "io/mesh_formats/scene_reader.h"
 #include "kernel/base/error.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/system/isolated_worker.h"
 
 // Importers are called in child processes alone: kernel/base/system/isolated_worker.h says why.
@@ -22,6 +23,7 @@ namespace {
 
 void check_readable(const std::string& path) {
   namespace fs = std::filesystem;
+  check_may_read(path);
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) refuse_mesh(path, "the mesh file does not exist");

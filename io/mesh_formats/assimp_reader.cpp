@@ -12,27 +12,39 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "io/mesh_formats/collada_repair.h"
 #include "kernel/base/read_file.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/text.h"
 
 namespace rubble {
 namespace {
 
-// Gives assimp repaired bytes for one file, and every other file as it is.
-class RepairedFile : public Assimp::DefaultIOSystem {
+// Opens the files that assimp asks for. Gives repaired bytes for one of them, if there are any.
+class GuardedFiles : public Assimp::DefaultIOSystem {
  public:
-  RepairedFile(std::string path, const std::string& bytes) : path_(std::move(path)), bytes_(bytes) {}
+  // bytes: empty: as the file has them. refused: gets what lies outside the sandbox, since assimp keeps exceptions to itself.
+  GuardedFiles(std::string path, const std::string& bytes, std::optional<Diagnostic>& refused)
+      : path_(std::move(path)), bytes_(bytes), refused_(refused) {}
 
   Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (path_ != file) return DefaultIOSystem::Open(file, mode);
-    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes_.data()), bytes_.size());
+    if (path_ == file && !bytes_.empty())
+      return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes_.data()), bytes_.size());
+    std::error_code failed;
+    auto refused = find_refusal(file, {path_, 0, "", "", "", "", ""});
+    if (refused && std::filesystem::exists(file, failed)) {  // assimp tries names that are not there, too
+      refused_ = std::move(refused);
+      return nullptr;
+    }
+    return DefaultIOSystem::Open(file, mode);
   }
 
  private:
   std::string path_;
   const std::string& bytes_;
+  std::optional<Diagnostic>& refused_;
 };
 
 class AssimpReader {
@@ -47,8 +59,8 @@ class AssimpReader {
       repaired = repair_collada(read_file(path_));
       out_.up = find_up_axis(repaired);
       importer_.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-      importer_.SetIOHandler(new RepairedFile(path_, repaired));  // the importer owns it
     }
+    importer_.SetIOHandler(new GuardedFiles(path_, repaired, refused_));  // the importer owns it
     scene_ = importer_.ReadFile(path_, aiProcess_Triangulate);
     if (!scene_ && !repaired.empty()) {
       const std::string reason = importer_.GetErrorString();
@@ -56,6 +68,7 @@ class AssimpReader {
       scene_ = importer_.ReadFile(path_, aiProcess_Triangulate);
       if (scene_) out_.note("its materials are left out, since they cannot be read: " + printable(reason));
     }
+    if (refused_) throw RefusedFile(*refused_);
     if (!scene_) refuse_mesh(path_, std::string("cannot be read as a mesh: ") + importer_.GetErrorString());
     if (scene_->mFlags & AI_SCENE_FLAGS_INCOMPLETE || scene_->mNumMeshes == 0 || !scene_->mRootNode)
       refuse_mesh(path_, "holds no triangles");
@@ -192,6 +205,7 @@ class AssimpReader {
   }
 
   const std::string& path_;
+  std::optional<Diagnostic> refused_;
   Assimp::Importer importer_;
   const aiScene* scene_ = nullptr;
   ImportedScene out_;

@@ -7,6 +7,7 @@
 #include "io/import/uri.h"
 #include "kernel/base/error.h"
 #include "kernel/base/read_file.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/text.h"
 
 namespace rubble {
@@ -193,6 +194,7 @@ std::string_view GltfDocument::buffer(std::size_t index, const std::string& user
   }
   const auto found = find_beside(std::filesystem::path(path_).parent_path().string(), uri);
   if (!found) refuse(element, "the file " + printable(uri) + " was not found beside it");
+  check_may_read(*found, {path_, 0, element + ".uri", "", "", "", ""});
   bytes = read_file(*found);
   return *bytes;
 }

@@ -5,6 +5,7 @@
 
 #include "io/import/uri.h"
 #include "kernel/base/error.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/text.h"
 
 namespace rubble {
@@ -46,6 +47,8 @@ class MaterialReader {
         if (!name.empty()) image.name = name;
         image.bytes = std::make_shared<const std::string>(document_.read_view(gltf_index(from, "bufferView"), image.name));
       }
+    } catch (const RefusedFile&) {
+      throw;
     } catch (const InputError& error) {
       image.fault = "cannot be had: " + error.diagnostics().front().message;
     } catch (const std::exception& error) {

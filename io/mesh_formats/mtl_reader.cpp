@@ -7,6 +7,7 @@
 #include "io/import/text_scan.h"
 #include "kernel/base/error.h"
 #include "kernel/base/read_file.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/text.h"
 
 namespace rubble {
@@ -62,6 +63,7 @@ bool MtlReader::read_file_of(const std::string& name) {
   std::error_code failed;
   for (const fs::path& tried : {folder / path, folder / fs::path(path).filename()}) {
     if (!fs::is_regular_file(tried, failed)) continue;
+    check_may_read(tried.string(), {path_, 0, "mtllib", "", "", "", ""});
     try {
       read(name, read_file(tried.string(), kLargestLibrary));
     } catch (const InputError& error) {

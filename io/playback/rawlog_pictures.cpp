@@ -72,7 +72,7 @@ std::vector<mrpt::obs::CObservation::Ptr> observations_of(const mrpt::serializat
 // Of no pixels: there is none.
 RecordedPicture import_picture(const std::string& path, const std::string& label,
                                const PictureWanted& wanted) {
-  refuse_endless_file(path);
+  check_readable_file(path);
   try {
     mrpt::io::CFileGZInputStream file;
     if (!file.open(path)) throw std::runtime_error("no such file");

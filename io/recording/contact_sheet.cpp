@@ -223,7 +223,41 @@ void check_range(const char* name, int value, int low, int high) {
   throw InputError(diagnostic);
 }
 
+bool is_paper(const RgbImage& sheet, int x, int y) {
+  const std::uint8_t* const pixel = sheet.rgb.data() + 3 * (std::size_t(y) * std::size_t(sheet.width) + std::size_t(x));
+  return pixel[0] == kPaper[2] && pixel[1] == kPaper[1] && pixel[2] == kPaper[0];
+}
+
+// Whether nothing is drawn in so many pixels to the right.
+bool is_blank(const RgbImage& sheet, int x, int y, int width) {
+  for (int i = 0; i < width; ++i)
+    if (!is_paper(sheet, x + i, y)) return false;
+  return true;
+}
+
+RgbImage cut(const RgbImage& sheet, int x, int y, int width, int height) {
+  RgbImage tile{width, height, {}};
+  for (int row = 0; row < height; ++row) {
+    const auto begin = sheet.rgb.begin() + 3 * (std::ptrdiff_t(y + row) * sheet.width + x);
+    tile.rgb.insert(tile.rgb.end(), begin, begin + 3 * width);
+  }
+  return tile;
+}
+
 }  // namespace
+
+std::vector<RgbImage> cut_colour_tiles(const RgbImage& sheet) {
+  const int tile = ContactSheetOptions().tile, pitch = 2 * tile + kGap + kMargin, bottom = sheet.height - kLegend;
+  std::vector<RgbImage> tiles;
+  if (sheet.width < kMargin + pitch || (sheet.width - kMargin) % pitch != 0 || bottom <= kTitle) return tiles;
+  int height = 0;
+  while (kTitle + height < bottom && !is_blank(sheet, kMargin, kTitle + height, tile)) ++height;
+  if (height == 0) return tiles;
+  for (int y = kTitle; y + height <= bottom; y += height + kCaption + kMargin)
+    for (int x = kMargin; x + pitch <= sheet.width; x += pitch)
+      if (!is_blank(sheet, x, y, tile)) tiles.push_back(cut(sheet, x, y, tile, height));
+  return tiles;
+}
 
 std::unique_ptr<Recorder> make_contact_sheet_recorder(const std::string& path,
                                                       const ContactSheetOptions& options) {

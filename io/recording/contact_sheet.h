@@ -3,7 +3,9 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "io/image/image_file.h"
 #include "io/recording/recorder.h"
 
 namespace rubble {
@@ -21,5 +23,8 @@ struct ContactSheetOptions {
 // Throws InputError for options out of range, RunError when `path` cannot be created.
 std::unique_ptr<Recorder> make_contact_sheet_recorder(const std::string& path,
                                                       const ContactSheetOptions& options);
+
+// The colour pictures of a sheet that was made with the default size of tiles, in their order; empty: it is no such sheet.
+std::vector<RgbImage> cut_colour_tiles(const RgbImage& sheet);
 
 }  // namespace rubble

@@ -12,6 +12,7 @@
 #include "io/robot/xacro_tool.h"
 #include "kernel/base/error.h"
 #include "kernel/base/read_file.h"
+#include "kernel/base/system/file_sandbox.h"
 
 namespace rubble {
 namespace {
@@ -205,6 +206,11 @@ class PartReader {
     const std::string name = elements_.name_of(shape, "filename");
     if (name.empty()) return false;
     g.file = find_urdf_mesh(name, elements_.path());
+    if (const auto refused = g.file.empty() ? std::nullopt : find_refusal(g.file)) {
+      elements_.mistake(shape.line, "its mesh \"" + name + "\" lies outside the sandbox", refused->expected, refused->found,
+                        refused->hint);
+      return false;
+    }
     if (!g.file.empty()) return true;
     elements_.mistake(shape.line, "its mesh is missing", "a file beside the URDF file, or below one of its folders",
                       "\"" + name + "\"",

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "kernel/base/error.h"
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/text.h"
 
 extern char** environ;
@@ -125,11 +126,15 @@ const XmlElement* find_xacro(const XmlElement& root) {
 
 std::string expand_xacro(const std::string& path, const XmlElement& first,
                          const std::vector<std::pair<std::string, std::string>>& arguments) {
+  const std::string need = "<" + first.name + "> of xacro";
+  if (!sandbox_folder().empty())
+    throw InputError({path, first.line, "", need + " is not expanded in a sandbox", "a URDF file",
+                      "a xacro file, a program of its author, for which another program would read files",
+                      "expand it where nothing else can be read: xacro FILE > FILE.urdf; or leave --sandbox out"});
   // A name that begins with "-" or holds ":=" is a file nevertheless.
   std::vector<std::string> words{"xacro", path[0] == '/' ? path : "./" + path};
   for (const auto& [name, value] : arguments) words.push_back(name + ":=" + value);
   const Outcome outcome = run_tool(std::move(words));
-  const std::string need = "<" + first.name + "> of xacro";
   if (!outcome.found || (WIFEXITED(outcome.status) && WEXITSTATUS(outcome.status) == 127))
     throw InputError({path, first.line, "", need + " is not expanded", "the tool `xacro` on the PATH, or a URDF file",
                       "no such tool", "pip install xacro, or expand the file elsewhere: xacro FILE > FILE.urdf"});

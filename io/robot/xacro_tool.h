@@ -19,7 +19,8 @@ bool is_xacro_file(const std::string& path);
 const XmlElement* find_xacro(const XmlElement& root);
 
 // What `xacro PATH NAME:=VALUE ...` prints. first: what needs it, for the message. Throws InputError: there is no
-// such tool on the PATH, or it fails, with what it says; it takes more than two minutes.
+// such tool on the PATH, or it fails, with what it says; it takes more than two minutes; or there is a sandbox
+// (kernel/base/system/file_sandbox.h), in which it is not called.
 std::string expand_xacro(const std::string& path, const XmlElement& first,
                          const std::vector<std::pair<std::string, std::string>>& arguments);
 

@@ -39,7 +39,7 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string sha256_of_file(const std::string& path) {
-  refuse_endless_file(path);
+  check_readable_file(path);
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                        &std::fclose);
   if (!file) throw RunError(path + ": cannot be read: " + std::strerror(errno));

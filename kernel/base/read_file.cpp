@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "kernel/base/error.h"
+#include "kernel/base/system/file_sandbox.h"
 
 namespace rubble {
 namespace {
@@ -26,6 +27,7 @@ std::string reason(int error) { return std::generic_category().message(error); }
 class Reader {
  public:
   explicit Reader(const std::string& path) : path_(path) {
+    check_may_read(path);
     // Without O_NONBLOCK the very opening of a pipe would wait.
     descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor_ < 0) refuse("cannot be opened: " + reason(errno));
@@ -96,7 +98,8 @@ std::string read_file(const std::string& path, std::uint64_t limit) {
   return Reader(path).read_all(limit);
 }
 
-void refuse_endless_file(const std::string& path) {
+void check_readable_file(const std::string& path) {
+  check_may_read(path);
   std::error_code failed;
   const std::filesystem::file_status status = std::filesystem::status(path, failed);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))

@@ -4,6 +4,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/read_file.h"
+#include "kernel/base/system/file_sandbox.h"
 
 namespace rubble {
 
@@ -11,6 +12,7 @@ std::string read_file(const std::string& path, std::uint64_t limit) {
   const auto refuse = [&](const std::string& message, const std::string& expected = "") {
     throw InputError({path, 0, "", message, expected, "", ""});
   };
+  check_may_read(path);
   std::error_code failed;
   if (std::filesystem::is_directory(path, failed)) refuse("is a folder");
   std::ifstream file(path, std::ios::binary);
@@ -25,7 +27,8 @@ std::string read_file(const std::string& path, std::uint64_t limit) {
   return content;
 }
 
-void refuse_endless_file(const std::string& path) {
+void check_readable_file(const std::string& path) {
+  check_may_read(path);
   std::error_code failed;
   const std::filesystem::file_status status = std::filesystem::status(path, failed);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/text.h"
 #include "scripting/packs/asset_links.h"
 #include "scripting/packs/pack_schema.h"
@@ -34,6 +35,8 @@ std::string find_file(const fs::path& folder, const std::string& name, const std
   if (name.empty() || !fs::is_regular_file(path, failed))
     mistakes.push_back(
         {"", 0, key, "no such file", "a file in " + folder.string(), "\"" + name + "\"", ""});
+  else if (auto refused = find_refusal(path.string(), {"", 0, key, "", "", "", ""}))
+    mistakes.push_back(std::move(*refused));
   return path.string();
 }
 

@@ -4,34 +4,24 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
-#include <filesystem>
-#include <fstream>
-#include <optional>
-#include <sstream>
 #include <utility>
 
 #include "kernel/base/error.h"
-#include "kernel/base/hash.h"
 #include "kernel/base/tables/text_table.h"
 #include "kernel/base/text.h"
-#include "scripting/files/data_grid.h"
 #include "scripting/sandbox/lua_host.h"
 #include "scripting/sandbox/lua_library.h"
 #include "scripting/sandbox/lua_library_code.h"
 #include "scripting/sandbox/lua_prelude.h"
 #include "scripting/sandbox/lua_value.h"
+#include "scripting/sandbox/script_includes.h"
 #include "scripting/schema/schema.h"
 
 namespace rubble {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr int kHookEvery = 1000;  // instructions
-constexpr std::size_t kMostIncludes = 64;
 constexpr std::uint64_t kInstructionsPerCall = 2'000'000;  // of a controller
-constexpr std::uintmax_t kLargestInclude = 4 << 20;  // unit: byte
-constexpr std::uintmax_t kLargestGrid = 512 << 20;   // of a picture or an elevation model; unit: byte
 
 double thread_cpu_seconds() {
   timespec t{};
@@ -149,108 +139,21 @@ std::string_view lua_source(std::string_view text) {
 
 struct LuaSandbox::State {
   LuaHost host;
-  std::vector<SourceFile> chunks;  // 0: the script itself
-  std::vector<SourceFile> included;
-  std::optional<std::map<std::string, std::string>> served;  // instead of files
+  ScriptIncludes files;
 
   ~State() {
     host.limited = false;
     if (host.lua) lua_close(host.lua);
   }
 
-  int open_include(const std::string& name, std::string& error);
-  int open_grid(const std::string& name, int side, std::string& error);
-  std::optional<fs::path> path_inside(const std::string& name, std::string& error) const;
-  std::optional<std::string> read_include(const fs::path& relative, std::uintmax_t largest, std::string& error) const;
-  int keep_include(const fs::path& relative, std::string text);
   Diagnostic diagnostic_of(const std::string& raised) const;
   void call(int arguments, int results);  // throws InputError
   void load_library();
 };
 
-// The file's text; otherwise the reason goes into `error`.
-std::optional<std::string> LuaSandbox::State::read_include(const fs::path& relative, std::uintmax_t largest,
-                                                           std::string& error) const {
-  const std::string name = "\"" + relative.string() + "\"";
-  if (served) {
-    const auto found = served->find(relative.lexically_normal().string());
-    if (found != served->end()) return found->second;
-    return error = name + " is not among the files that were kept with the script", std::nullopt;
-  }
-  std::error_code failed;
-  const fs::path folder =
-      fs::weakly_canonical(fs::path(chunks[0].path).parent_path() / ".", failed);
-  const fs::path path = fs::weakly_canonical(folder / relative, failed);
-  const auto apart = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
-  if (failed || (apart.first != folder.end() && !apart.first->empty()))
-    return error = name + " leads out of the script's folder", std::nullopt;
-  error = "no readable file " + name + " beside the script";
-  if (!fs::is_regular_file(path, failed)) return std::nullopt;
-  if (fs::file_size(path, failed) > largest)
-    return error = name + " is larger than " + std::to_string(largest >> 20) + " MiB", std::nullopt;
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) return std::nullopt;
-  return text.str();
-}
-
-// Returns its index among the chunks.
-int LuaSandbox::State::keep_include(const fs::path& relative, std::string text) {
-  const std::string shown = (fs::path(chunks[0].path).parent_path() / relative).string();
-  const std::string hash = sha256(text);
-  chunks.push_back({shown, std::move(text), hash});
-  const bool known = std::any_of(included.begin(), included.end(),
-                                 [&](const SourceFile& file) { return file.path == shown; });
-  if (!known) included.push_back(chunks.back());
-  return int(chunks.size()) - 1;
-}
-
-std::optional<fs::path> LuaSandbox::State::path_inside(const std::string& name, std::string& error) const {
-  const fs::path relative(name);
-  const bool climbs = std::find(relative.begin(), relative.end(), "..") != relative.end();
-  if (!name.empty() && !relative.is_absolute() && !climbs) return relative;
-  error = "\"" + name + "\" is not a path inside the script's folder";
-  return std::nullopt;
-}
-
-int LuaSandbox::State::open_include(const std::string& name, std::string& error) {
-  const auto relative = path_inside(name, error);
-  if (!relative) return -1;
-  std::optional<std::string> text = read_include(*relative, kLargestInclude, error);
-  if (!text) return -1;
-  if (chunks.size() > kMostIncludes) return error = "more than 64 files", -1;
-  if (find_invalid_utf8(*text) != std::string_view::npos) {
-    error = "\"" + name + "\" is not UTF-8 text";
-    if (is_utf16(*text)) error += " but UTF-16: save it as UTF-8";
-    if (is_data_grid(*text)) error += " but a picture: rubble.read_image reads it";
-    return -1;
-  }
-  return keep_include(*relative, std::move(*text));
-}
-
-// Manifests keep text. One that was made for another side than usual has it in its name.
-int LuaSandbox::State::open_grid(const std::string& name, int side, std::string& error) {
-  auto relative = path_inside(name, error);
-  if (!relative) return -1;
-  fs::path kept = *relative;
-  if (side != kUsualSide) kept += "#" + std::to_string(side);
-  std::optional<std::string> bytes = read_include(served ? kept : *relative, kLargestGrid, error);
-  if (!bytes) return -1;
-  if (chunks.size() > kMostIncludes) return error = "more than 64 files", -1;
-  try {
-    const bool small_text = bytes->size() <= kLargestInclude && find_invalid_utf8(*bytes) == std::string_view::npos;
-    const DataGrid whole = read_data_grid(*bytes);
-    DataGrid grid = thinned(whole, side);
-    if (!small_text || grid.block != whole.block) *bytes = data_grid_text(grid);
-  } catch (const std::runtime_error& failure) {
-    return error = "\"" + name + "\" " + failure.what(), -1;
-  }
-  return keep_include(kept, std::move(*bytes));
-}
-
 // "chunk0:12: text" -> the file's path, 12 and the text.
 Diagnostic LuaSandbox::State::diagnostic_of(const std::string& raised) const {
+  const std::vector<SourceFile>& chunks = files.chunks();
   const bool no_memory = raised == "not enough memory";
   const std::string message = no_memory ? host.refused_at + raised : raised;
   Diagnostic d;
@@ -308,12 +211,12 @@ LuaSandbox::LuaSandbox(std::uint64_t seed, const std::string& entry, const Sandb
   s.host.seed = seed;
   s.host.limits = limits;
   s.host.open_include = [&s](const std::string& name, std::string& error) {
-    return s.open_include(name, error);
+    return s.files.open_text(name, error);
   };
   s.host.open_grid = [&s](const std::string& name, int side, std::string& error) {
-    return s.open_grid(name, side, error);
+    return s.files.open_grid(name, side, error);
   };
-  s.host.chunk = [&s](int chunk) -> const SourceFile& { return s.chunks[std::size_t(chunk)]; };
+  s.host.chunk = [&s](int chunk) -> const SourceFile& { return s.files.chunks()[std::size_t(chunk)]; };
   s.host.limited = false;
   s.host.lua = lua_newstate(allocate, &s.host);
   if (!s.host.lua) throw RunError("no memory for a Lua state");
@@ -338,7 +241,7 @@ LuaSandbox::LuaSandbox(std::uint64_t seed, const std::string& entry, const Sandb
 LuaSandbox::~LuaSandbox() = default;
 
 void LuaSandbox::serve_includes(std::map<std::string, std::string> texts) {
-  state_->served = std::move(texts);
+  state_->files.serve(std::move(texts));
 }
 
 void LuaSandbox::set_overrides(const std::vector<std::string>& overrides, std::vector<std::string> taken_names) {
@@ -370,7 +273,7 @@ const std::map<std::string, std::string>& LuaSandbox::parameters() const { retur
 
 Value LuaSandbox::run(const std::string& text, const std::string& path) {
   State& s = *state_;
-  s.chunks.assign(1, {path, text, ""});
+  s.files.begin(text, path);
   s.host.started = thread_cpu_seconds();
   s.host.limited = true;
   lua_sethook(s.host.lua, count_instructions, LUA_MASKCOUNT, kHookEvery);
@@ -443,7 +346,7 @@ bool LuaSandbox::used_random() const { return state_->host.used_random; }
 const std::vector<std::pair<std::string, std::string>>& LuaSandbox::drawn() const {
   return state_->host.drawn;
 }
-const std::vector<SourceFile>& LuaSandbox::included() const { return state_->included; }
+const std::vector<SourceFile>& LuaSandbox::included() const { return state_->files.included(); }
 std::vector<std::string> LuaSandbox::take_printed() {
   state_->host.printed_bytes = 0;
   return std::exchange(state_->host.printed, {});

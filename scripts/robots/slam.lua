@@ -8,9 +8,11 @@ local seconds = rubble.parameter("seconds", 50, { min = 1, max = 600, unit = "s"
 local function wall(x, y, length, width)
   return { box = { length, width, 2 }, position = { x, y, 1 }, material = "brick" }
 end
--- Along the wall in the south, around the corner, and along the wall in the east.
-local drive = { { t = 0, linear = 0.5 }, { t = 18, linear = 0.2, angular = 0.5 }, { t = 21, linear = 0.5 },
-                { t = 38, linear = 0.2, angular = 0.5 }, { t = 41, linear = 0.5 } }
+-- Along the wall in the south, around the corner, and along the wall in the east. The rover's four wheels skid: it turns
+-- by less than half of what it is told.
+local turn = robot == "rover" and 6.6 or 3
+local drive = { { t = 0, linear = 0.5 }, { t = 18, linear = 0.2, angular = 0.5 }, { t = 18 + turn, linear = 0.5 },
+                { t = 35 + turn, linear = 0.2, angular = 0.5 }, { t = 35 + 2 * turn, linear = 0.5 } }
 
 return rubble.mission {
   seed = 5,

@@ -42,16 +42,7 @@ class MrptSlam : public ::testing::Test {
     const Outcome run = run_rubble("run scripts/robots/slam.lua --quiet --force --out " + (folder_ / "run") +
                                    " --set outputs.rawlog_format=" + format + " " + more);
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    const std::string log = folder_ / "mission.rawlog";
-    std::filesystem::remove(log);
-    // Programs that build maps take depth pictures for scans, and must not be told the truth.
-    const int edited = shell("rawlog-edit --remove-label camera,camera_ground_truth,ground_truth,tank_ground_truth,inertial "
-                             "-i run/mission.rawlog -o mission.rawlog");
-    if (format == "observations") {
-      ASSERT_EQ(edited, 0);
-    } else {
-      std::filesystem::copy_file(folder_ / "run/mission.rawlog", log, std::filesystem::copy_options::overwrite_existing);
-    }
+    keep_sensors("");
     const std::vector<double> first = numbers_of_truth(true), last = numbers_of_truth(false);
     truth_ = {last[1] - first[1], last[2] - first[2]};
     const std::string table = read_file(folder_ / "run/robots/tank_odometry.csv");
@@ -60,6 +51,17 @@ class MrptSlam : public ::testing::Test {
     std::istringstream lines(table);
     for (std::string line; std::getline(lines, line);) std::sscanf(line.c_str(), "%lf,%lf,%lf", &stamp, &at.x, &at.y);
     odometry_ = at;
+  }
+
+  // Makes the rawlog that the programs read: never with the truth, and of the camera and the inertial unit with those
+  // that are named.
+  void keep_sensors(const std::string& kept) {
+    std::filesystem::remove(folder_ / "mission.rawlog");
+    std::string removed = "camera_ground_truth,ground_truth,tank_ground_truth";
+    for (const std::string label : {"camera", "inertial"})
+      if (kept.find(label) == std::string::npos) removed += "," + label;
+    ASSERT_EQ(shell("rawlog-edit --remove-label " + removed + " -i run/mission.rawlog -o mission.rawlog"), 0)
+        << read_file(folder_ / "log");
   }
 
   int shell(const std::string& command) const {
@@ -124,23 +126,38 @@ TEST_F(MrptSlam, RbpfFollowsACrawlerByActions) {
   expect_near("rbpf-slam, crawler, utm30lx", rbpf(), 0.3);
 }
 
-class NightlyMrptSlam : public MrptSlam {};
+constexpr double kGraphError = 1.6;  // of graphslam-engine, which keeps a node each half metre; unit: m
+
+class NightlyMrptSlam : public MrptSlam {
+ protected:
+  // MRPT 2.5 makes no map of scans of 3-D LiDARs: the path is that of odometry, and graphslam-engine has no nodes.
+  // alone: nothing is in the rawlog but odometry and scans. With more the programs must come to an end and a path: which
+  // scan they take for which pose then is their affair, and docs/how_to/mrpt_slam.md says by how much it is worse.
+  void check_programs(const std::string& format, const std::string& which, bool rotating, bool alone) {
+    const double any = 1000, by_odometry = distance(odometry_, truth_) + 0.3;
+    if (format == "actions") expect_near("rbpf-slam" + which, rbpf(), alone ? 1 : any);
+    if (format == "observations")
+      expect_near((rotating ? "icp-slam by odometry" : "icp-slam") + which, icp(), rotating ? by_odometry : alone ? 1 : any);
+    if (!rotating) expect_near("graphslam-engine by " + format + which, graphslam(), alone ? kGraphError : any);
+  }
+};
+
+// What the robot has besides its LiDAR: nothing, its inertial unit, its depth camera, both. kinect-3d-slam reads no rawlog.
+const char* const kBesides[] = {"", "inertial", "camera", "camera and inertial"};
 
 TEST_F(NightlyMrptSlam, EveryCombination) {
   for (const std::string robot : {"crawler", "rover"}) {
     for (const std::string lidar : {"utm30lx", "vlp16"}) {
       const std::string more = "--set robot=" + robot + " --set lidar=" + lidar + " --set seconds=45";
-      const std::string which = ", " + robot + ", " + lidar;
-      record("observations", more);
-      if (lidar == "vlp16") {  // MRPT 2.5 makes no map of it: the path is that of odometry
-        expect_near("icp-slam by odometry" + which, icp(), distance(odometry_, truth_) + 0.3);
-        continue;
+      for (const std::string format : {"observations", "actions"}) {
+        if (lidar == "vlp16" && format == "actions") continue;  // nothing would look at its scans
+        record(format, more);
+        for (const std::string besides : kBesides) {
+          keep_sensors(besides);
+          const std::string which = ", " + robot + ", " + lidar + (besides.empty() ? "" : ", " + besides);
+          check_programs(format, which, lidar == "vlp16", besides.empty());
+        }
       }
-      expect_near("icp-slam" + which, icp(), 1);
-      expect_near("graphslam-engine" + which, graphslam(), 1);
-      record("actions", more);
-      expect_near("rbpf-slam" + which, rbpf(), 1);
-      expect_near("graphslam-engine by actions" + which, graphslam(), 1);
     }
   }
 }

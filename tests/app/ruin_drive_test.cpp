@@ -53,6 +53,9 @@ TEST_F(RuinDrive, IsTheSameVerifiedMadeAgainAndResumed) {
   EXPECT_LT(metrics.at("pile_height_m").get<double>(), 2) << "it fell";
   EXPECT_GT(metrics.at("robot_distance_m").get<double>(), 0.5);
   EXPECT_EQ(metrics.at("robots_lost").get<double>(), 0);
+  const std::string recorded = read_file(first + "/mission.mcap");
+  for (const char* topic : {"/camera/rgb/image_raw", "/camera/depth_registered/", "/scan", "/imu", "/odom"})
+    EXPECT_NE(recorded.find(topic), std::string::npos) << topic << " was not recorded";
   EXPECT_EQ(run_rubble("verify --quiet --threads 2 " + first).exit_code, 0);
   const Outcome remake = run_rubble("remake --quiet " + first + "/manifest.json --out " + (folder_ / "b"));
   ASSERT_EQ(remake.exit_code, 0) << remake.err;

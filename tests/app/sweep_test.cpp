@@ -9,6 +9,7 @@
 #include "app/batch/sweep.h"
 #include "app/batch/csv_table.h"
 #include "app/report/html_text.h"
+#include "app/report/score_means.h"
 #include "app/report/svg_plot.h"
 #include "kernel/base/error.h"
 #include "tests/app/program.h"
@@ -214,7 +215,8 @@ TEST_F(SweptBatch, ReportShowsEveryRunAndNeedsNothingElse) {
   ASSERT_EQ(made.exit_code, 0) << made.err;
   const std::string page = read_file(scratch / "whole/report.html");
   for (const char* part : {"<h1>tiny.lua</h1>", "8 runs, seeds 1,2, 8 done", "Over pile.pieces_per_layer",
-                           "href=\"v4_seed_2/\"", "3 more runs have none", "random.how wet, &quot;really&quot;"})
+                           "href=\"v4_seed_2/\"", "Further runs, without pictures here (--pictures): 3.", "<h3>By pile.pieces_per_layer</h3>",
+                           "Each row is over all values of the other keys.", "sd ", "random.how wet, &quot;really&quot;"})
     EXPECT_IN(part, page);
   std::size_t pictures = 0;
   for (std::size_t at = 0; (at = page.find("src=\"data:image/jpeg;base64,/9j/", at)) != std::string::npos; ++at)
@@ -224,6 +226,58 @@ TEST_F(SweptBatch, ReportShowsEveryRunAndNeedsNothingElse) {
     EXPECT_EQ(page.find(outside), std::string::npos) << outside << " leads out of the page";
   ASSERT_EQ(run_rubble("report " + (scratch / "whole") + " --out " + (scratch / "r.html")).exit_code, 0);
   EXPECT_IN("href=\"whole/v4_seed_2/\"", read_file(scratch / "r.html"));
+}
+
+FinishedBatch batch_of(std::vector<std::vector<std::string>> rows) {
+  FinishedBatch batch;
+  batch.table.columns = {"seed", "status", "wetness", "height", "settled"};
+  batch.table.rows = std::move(rows);
+  return batch;
+}
+
+// 1, 2, 3, 4, 5: mean 3, deviation sqrt(2.5), and 2.776 of it over the root of 5.
+TEST(ScoreMeans, AreThoseOfTheTextbook) {
+  const StudentInterval five = calc_student_interval({1, 2, 3, 4, 5});
+  EXPECT_EQ(five.count, 5u);
+  EXPECT_NEAR(five.mean, 3, 1e-12);
+  EXPECT_NEAR(five.deviation, 1.5811, 1e-4);
+  EXPECT_NEAR(five.half, 1.9629, 1e-3);
+  EXPECT_NEAR(calc_student_interval({0, 1}).half, 12.706 * 0.5, 1e-3);
+  std::vector<double> many;
+  for (int i = 0; i < 51; ++i) many.push_back(i);
+  EXPECT_NEAR(calc_student_interval(many).half, 2.0086 * std::sqrt(51.0 * 52 / 12) / std::sqrt(51.0), 5e-3);
+  EXPECT_EQ(calc_student_interval({7}).half, 0) << "one run says nothing of others";
+  EXPECT_EQ(calc_student_interval({}).count, 0u);
+  const ShareInterval all = calc_share_interval(5, 5);  // Wilson: 1 / (1 + z2 / n)
+  EXPECT_NEAR(all.low, 1 / (1 + 1.959964 * 1.959964 / 5), 1e-6);
+  EXPECT_EQ(all.high, 1);
+  EXPECT_NEAR(calc_share_interval(10, 20).low, 0.2993, 1e-4);
+}
+
+TEST(ScoreMeans, ByValueOfAKeyWithTheNumberOfRuns) {
+  const FinishedBatch batch = batch_of({{"1", "done", "0.5", "1", "1"}, {"2", "done", "0.5", "3", "1"},
+                                        {"3", "did_not_settle", "10", "8", "0"}, {"4", "failed", "10", "", ""},
+                                        {"5", "done", "2", "", "1"}});
+  const std::string page = make_mean_tables(batch, {"wetness"}, {3, 4});
+  for (const char* part : {"1 run without scores is not counted", "1 run that did not settle is counted",
+                           "<tr><td>all</td><td>4</td><td>4.0 ± 9.0<small>sd 3.6, n 3</small></td><td>3 of 4<small>30 to 95 %",
+                           "<tr><td>0.5</td><td>2</td><td>2 ± 13<small>sd 1.4, n 2</small></td><td>2 of 2<small>34 to 100 %",
+                           "<tr><td>2</td><td>1</td><td>none</td>", "<tr><td>10</td><td>1</td><td>8<small>n 1: no interval</small></td>"})
+    EXPECT_IN(part, page);
+  EXPECT_LT(page.find("<td>2</td><td>1"), page.find("<td>10</td><td>1")) << "as numbers";
+  EXPECT_EQ(page.find("over all values of the other keys"), std::string::npos);
+  EXPECT_EQ(make_mean_tables(batch, {"wetness"}, {}), "");
+  FinishedBatch counted = batch;
+  counted.table.columns[4] = "void_count";
+  EXPECT_IN("<td>0.75 ± 0.80<small>sd 0.50, n 4</small></td>", make_mean_tables(counted, {"wetness"}, {4}));
+}
+
+TEST(ScoreMeans, ByRangesWhereThereAreManyValues) {
+  std::vector<std::vector<std::string>> rows;
+  for (int i = 0; i < 20; ++i) rows.push_back({std::to_string(i), "done", std::to_string(i), std::to_string(2 * i), "1"});
+  const std::string page = make_mean_tables(batch_of(rows), {"wetness"}, {3});
+  for (const char* part : {"<td>0 to 3</td><td>4</td><td>3.0 ± 4.1<", "<td>16 to 19</td><td>4</td><td>35.0 ± 4.1<"}) EXPECT_IN(part, page);
+  EXPECT_EQ(page.find("<td>4</td><td>1</td>"), std::string::npos);
 }
 
 TEST_F(SweptBatch, ReportSaysWhatItNeeds) {
@@ -251,11 +305,12 @@ TEST_F(NightlyReport, SortsInABrowser) {
   ASSERT_EQ(std::system(command.c_str()), 0) << read_file(scratch / "err");
   const std::string dom = read_file(scratch / "dom");
   EXPECT_IN("aria-sort=\"descending\"", dom);
-  const std::size_t body = dom.find("<tbody>");
+  const std::size_t body = dom.find("<tbody>", dom.find("<table class=\"runs\">"));
   ASSERT_NE(body, std::string::npos) << dom.substr(0, 2000);
   EXPECT_LT(dom.find("v3_seed_1/", body), dom.find("v1_seed_1/", body));
   const std::string plain = read_file(scratch / "whole/report.html");
-  EXPECT_GT(plain.find("v3_seed_1/", plain.find("<tbody>")), plain.find("v1_seed_1/", plain.find("<tbody>")));
+  const std::size_t table = plain.find("<table class=\"runs\">");
+  EXPECT_GT(plain.find("v3_seed_1/", table), plain.find("v1_seed_1/", table));
 }
 
 }  // namespace sweep_test

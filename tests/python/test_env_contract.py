@@ -63,6 +63,22 @@ class Contract(unittest.TestCase):
             self.assertFalse(space.contains(np.zeros(space.shape[0] + 1, np.float32)))
             self.assertFalse(space.contains(np.zeros(space.shape, np.float64)), "is wider than the space's numbers")
 
+    def test_spaces_print_names_ranges_and_units(self):
+        for kind in OPTIONS:
+            env = make(kind)
+            for name, space in env.observation_space.spaces.items():
+                self.assertIn(f"{name!r}: {space!r}", str(env.observation_space))
+                self.assertTrue(space.unit or len(space.parts) == int(np.prod(space.shape)), f"{kind.__name__}: {name}")
+            self.assertNotIn("object at", str(env.action_space) + str(env.observation_space))
+            self.assertTrue(env.action_space.unit or len(env.action_space.parts) == env.action_space.shape[0])
+        self.assertEqual(str(make(VoidExplore).action_space),
+                         "Box((4,), float32: forwards -1 to 1 of 0.5 m/s, left -1 to 1 of 0.5 m/s, up -1 to 1 of 0.5 m/s, "
+                         "turning to the left -1 to 1 of 1 rad/s)")
+        self.assertEqual(str(make(CrawlerNav).observation_space["goal"]),
+                         "Box((3,), float32: distance 0 to 100 m, cosine of bearing -1 to 1, sine of bearing -1 to 1)")
+        self.assertEqual(str(make(SnakeExplore).observation_space["depth"]), "Box((16, 16), float32, 0 to 4 m)")
+        self.assertEqual(str(Box(0, 1, (2,))), "Box((2,), float32, 0 to 1)")
+
     def test_observations_are_in_their_space_at_the_limits_of_actions(self):
         for kind in OPTIONS:
             env = make(kind)

@@ -138,5 +138,30 @@ class PileWithFines(unittest.TestCase):
         self.assertGreater(nearer.sum(), 5)
 
 
+class Sandbox(unittest.TestCase):
+    def test_holds_what_missions_read(self):
+        with tempfile.TemporaryDirectory() as root:
+            inside, outside = os.path.join(root, "in"), os.path.join(root, "out")
+            for folder in (inside, outside):
+                os.mkdir(folder)
+            with open(os.path.join(outside, "block.obj"), "w") as file:
+                file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n")
+            mission = os.path.join(inside, "m.lua")
+            with open(mission, "w") as file:
+                file.write("return rubble.mission { pile = { layers = 0,\nterrain = { file = '../out/block.obj' } } }")
+            self.assertEqual(len(rubble.settle(mission, threads=1)), 1)
+            try:
+                rubble.set_sandbox(inside)
+                with self.assertRaises(rubble.InputError) as raised:
+                    rubble.settle(mission, threads=1)
+                self.assertEqual((raised.exception.line, raised.exception.key), (2, "pile.terrain.file"))
+                self.assertIn("lies outside the sandbox", str(raised.exception))
+                with self.assertRaises(rubble.InputError):
+                    rubble.set_sandbox(os.path.join(root, "none"))
+            finally:
+                rubble.set_sandbox(None)
+            rubble.settle(mission, threads=1)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -145,23 +145,23 @@ void print_remarks(const std::vector<Report>& reports) {
 void print_trees(const std::vector<TreeReport>& trees) {
   if (trees.empty()) return;
   print_out("\n%-24s %6s %6s %10s %5s  %s\n", "articulated", "links", "joints", "mass (kg)",
-              "parts", "size (m)");
+            "parts", "size (m)");
   for (const TreeReport& t : trees)
     print_out("%-24s %6zu %6zu %10.2f %5zu  %.2f x %.2f x %.2f\n", t.name.c_str(), t.links,
-                t.joints, t.mass, t.parts, t.size.x, t.size.y, t.size.z);
+              t.joints, t.mass, t.parts, t.size.x, t.size.y, t.size.z);
 }
 
 void print_table(const AssetPack& pack, const std::vector<AssetReport>& reports,
                  const std::vector<TreeReport>& trees) {
   print_out("%-24s %6s %12s %10s %5s %7s %8s %8s %8s  %s\n", "asset", "closed", "volume (m3)",
-              "mass (kg)", "parts", "corners", "thin(mm)", "out (%)", "in (%)", "triangles");
+            "mass (kg)", "parts", "corners", "thin(mm)", "out (%)", "in (%)", "triangles");
   for (const AssetReport& r : reports) {
     std::string triangles;
     for (const std::size_t n : r.triangles)
       triangles += (triangles.empty() ? "" : ", ") + std::to_string(n);
     const double scale = r.closed && r.error.mesh > 0 ? 100 / r.error.mesh : 0;
     print_out("%-24s %6s %12.5f %10.2f %5zu %7zu %8.1f ", r.name.c_str(), r.closed ? "yes" : "no",
-                r.volume, r.mass, r.parts, r.corners, 1000 * r.thinnest);
+              r.volume, r.mass, r.parts, r.corners, 1000 * r.thinnest);
     if (scale > 0)
       print_out("%8.1f %8.1f", scale * r.error.outside, scale * r.error.inside);
     else
@@ -172,7 +172,7 @@ void print_table(const AssetPack& pack, const std::vector<AssetReport>& reports,
   print_remarks(reports);
   print_remarks(trees);
   print_out("%s: %zu assets, %zu of them articulated\n", pack.name.c_str(),
-              reports.size() + trees.size(), trees.size());
+            reports.size() + trees.size(), trees.size());
 }
 
 nlohmann::ordered_json json_of(const TreeReport& t) {

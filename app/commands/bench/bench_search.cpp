@@ -40,7 +40,7 @@ ExitCode search(const Request& request) {
                                    [](const SearchResult& r) { return !r.score.failure.empty(); });
   if (failed == results.end()) return ExitCode::done;
   print_err("the agent failed, first with seed %llu: %s\n", static_cast<unsigned long long>(failed->seed),
-               failed->score.failure.c_str());
+            failed->score.failure.c_str());
   return ExitCode::failure;
 }
 

@@ -39,7 +39,7 @@ auto with_file(const std::string& path, Work&& work) {
 // What a file was read as belongs to the result, but not among the numbers that programs read.
 void describe(const std::string& path, const RecordedTrajectory& track) {
   print_err("%s: %zu poses, read as %s\n", path.c_str(), track.poses.size(),
-               track.format.c_str());
+            track.format.c_str());
   for (const std::string& note : track.notes)
     print_err("%s: %s\n", path.c_str(), note.c_str());
 }

@@ -42,7 +42,7 @@ void warn_of_empty(const Files& splits, const FinishedBatch& batch, const SplitS
   for (std::size_t i = 0; i < kSplits.size(); ++i)
     if (shares.as_list()[i] > 0 && splits.at(split_file(i)).empty())
       print_err("warning: %s is empty: none of the seeds %s falls there; run more seeds, or change --splits\n",
-                   split_file(i).c_str(), batch.seeds.c_str());
+                split_file(i).c_str(), batch.seeds.c_str());
 }
 
 Files make_batch_files(const PackRequest& request) {

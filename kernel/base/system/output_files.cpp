@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "kernel/base/error.h"
+#include "kernel/base/system/file_sandbox.h"
 
 namespace rubble {
 namespace {
@@ -62,6 +63,7 @@ bool is_file_at(int descriptor, const std::string& path) {
 }
 
 int create_output_file(const std::string& path) {
+  check_may_write(path);
   for (int i = 0; i < kMostTries; ++i) {
     const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | kUnfollowed, 0666);
     if (descriptor < 0 && errno != EEXIST) fail("create", path, errno);
@@ -91,6 +93,7 @@ void write_all(int descriptor, std::string_view bytes, const std::string& path) 
 }
 
 AppendedFile::AppendedFile(const std::string& path) : path_(path) {
+  check_may_write(path);
   descriptor_ = open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | kUnfollowed, 0666);
   if (descriptor_ < 0 && errno == ELOOP) refuse(path, "is a link", "a file");
   if (descriptor_ < 0 && errno == EISDIR) refuse(path, "is a folder", "a file");
@@ -122,6 +125,7 @@ void AppendedFile::append(std::string_view bytes) { write_all(descriptor_, bytes
 
 void make_output_folder(const std::string& folder) {
   if (folder.empty()) return;  // of a plain file name
+  check_may_write(folder);
   std::error_code failed;
   const fs::file_status status = fs::status(folder, failed);
   if (fs::exists(status) && !fs::is_directory(status))
@@ -131,6 +135,7 @@ void make_output_folder(const std::string& folder) {
 }
 
 std::string make_folder_below(const std::string& folder, const std::string& name) {
+  check_may_write(folder);
   std::string path = folder;
   for (std::size_t begin = 0, end = 0; begin <= name.size(); begin = end + 1) {
     end = std::min(name.find('/', begin), name.size());
@@ -149,6 +154,7 @@ std::string make_folder_below(const std::string& folder, const std::string& name
 }
 
 int create_locked_folder(const std::string& path) {
+  check_may_write(path);
   for (int i = 0; i < kMostTries; ++i) {
     const int left = open(path.c_str(), O_RDONLY | O_DIRECTORY | kUnfollowed);
     const bool busy = left >= 0 && is_locked(left);

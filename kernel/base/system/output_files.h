@@ -1,5 +1,6 @@
 // All functions that write to the disk or remove files. A folder may be untrusted, with links and pipes in place of output
-// files. They are never followed or waited for.
+// files. They are never followed or waited for. In a sandbox (file_sandbox.h) each of these functions refuses what lies
+// outside the output folder of the run.
 //
 // tests/app/guarded_calls_test.cpp finds the sources that open, make or remove files by other means.
 #pragma once

@@ -46,13 +46,17 @@ class CrawlerNav(Env):
         self._max_range, self._robot, self._piles = max_range, None, {}
         turns = _core._directions(2 * np.pi * np.arange(rays) / rays)
         self._rays = np.append(turns, np.zeros((rays, 1)), axis=1)
-        self.action_space = Box(-1.0, 1.0, (4,), np.float32)
+        self.action_space = Box(-1.0, 1.0, (4,), np.float32, parts=[
+            ("forwards", f"of {speed:g} m/s"), ("turning to the left", f"of {turn_rate:g} rad/s"),
+            ("front flippers", "of 1.2 rad"), ("rear flippers", "of 1.2 rad")])
         self.observation_space = Dict({
-            "goal": Box(np.array([0, -1, -1]), np.array([2 * _MOST, 1, 1]), (3,), np.float32),
-            "joints": Box(-_MOST, _MOST, (4,), np.float32),
-            "motion": Box(-_MOST, _MOST, (6,), np.float32),
-            "scan": Box(0.0, max_range, (rays,), np.float32),
-            "tilt": Box(-1.0, 1.0, (3,), np.float32)})
+            "goal": Box(np.float32([0, -1, -1]), np.float32([2 * _MOST, 1, 1]), (3,), np.float32,
+                        parts=[("distance", "m"), ("cosine of bearing", ""), ("sine of bearing", "")]),
+            "joints": Box(-_MOST, _MOST, (4,), np.float32, unit="rad"),
+            "motion": Box(-_MOST, _MOST, (6,), np.float32, parts=[
+                (f"velocity along {axis}", "m/s") for axis in "XYZ"] + [(f"turning about {axis}", "rad/s") for axis in "XYZ"]),
+            "scan": Box(0.0, max_range, (rays,), np.float32, unit="m"),
+            "tilt": Box(-1.0, 1.0, (3,), np.float32, parts=[(f"vertical along {axis}", "") for axis in "XYZ"])})
 
     def _find_pile(self, seed):
         """The pile of that seed, and the radius of a circle about the origin that holds it."""

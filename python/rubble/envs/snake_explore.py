@@ -43,14 +43,16 @@ class SnakeExplore(Env):
         self._threads, self._robot = threads, None
         self._worlds = VoidWorlds(pile_seeds, lambda seed: VoidWorld(mission, seed, radius, voxel, size, fov_deg,
                                                                      max_range, False, threads))
-        self.action_space = Box(-1.0, 1.0, (_JOINTS,), np.float32)
+        self.action_space = Box(-1.0, 1.0, (_JOINTS,), np.float32, unit="of 1.2 rad, by joint from head to tail")
+        head = [(way, "m") for way in ("forwards", "left", "up")] + [
+            (name, "") for name in ("X axis upwards", "Z axis upwards", "cosine of heading", "sine of heading")]
         self.observation_space = Dict({
-            "depth": Box(0.0, max_range, (size, size), np.float32),
-            "head": Box(-_MOST, _MOST, (7,), np.float32),
-            "joints": Box(-_MOST, _MOST, (_JOINTS,), np.float32),
-            "speeds": Box(-_MOST, _MOST, (_JOINTS,), np.float32),
-            "torques": Box(-_MOST, _MOST, (_JOINTS,), np.float32),
-            "touch": Box(0.0, 100 * _MOST, (_JOINTS + 1,), np.float32)})
+            "depth": Box(0.0, max_range, (size, size), np.float32, unit="m"),
+            "head": Box(-_MOST, _MOST, (7,), np.float32, parts=head),
+            "joints": Box(-_MOST, _MOST, (_JOINTS,), np.float32, unit="rad"),
+            "speeds": Box(-_MOST, _MOST, (_JOINTS,), np.float32, unit="rad/s"),
+            "torques": Box(-_MOST, _MOST, (_JOINTS,), np.float32, unit="N m"),
+            "touch": Box(0.0, 100 * _MOST, (_JOINTS + 1,), np.float32, unit="N")})
 
     def _find_start(self):
         """On the ground before the entrance, as near as the snake has room, looking at it."""

@@ -1,11 +1,13 @@
-"""Env, Box and Dict: gymnasium's where it is installed, else as much of them as an environment needs."""
+"""Env, Box and Dict: gymnasium's where it is installed, else as much of them as an environment needs. Boxes also know
+units and names, which they print."""
 import numpy as np
 
 from .. import _core
 
 try:
     from gymnasium import Env
-    from gymnasium.spaces import Box, Dict
+    from gymnasium.spaces import Box as _Box
+    from gymnasium.spaces import Dict
     from gymnasium.utils import seeding
 
     def make_random(seed):
@@ -51,7 +53,7 @@ except ImportError:
         def __exit__(self, *_):
             self.close()
 
-    class Box:
+    class _Box:
         """An array within limits."""
 
         def __init__(self, low, high, shape, dtype=np.float32):
@@ -62,9 +64,6 @@ except ImportError:
 
         def seed(self, seed=None):
             self._random, _ = make_random(seed)
-
-        def __repr__(self):
-            return f"Box({self.low.min()}, {self.high.max()}, {self.shape}, {self.dtype})"
 
         def sample(self):
             return self._random.uniform(self.low, self.high).astype(self.dtype)
@@ -88,3 +87,19 @@ except ImportError:
 
         def contains(self, value):
             return value.keys() == self.spaces.keys() and all(s.contains(value[k]) for k, s in self.spaces.items())
+
+
+class Box(_Box):
+    """parts: the name and the unit of each element, for a space with names; unit: of all elements, for one without."""
+
+    def __init__(self, low, high, shape, dtype=np.float32, unit="", parts=()):
+        super().__init__(low, high, shape, dtype)
+        self.unit, self.parts = unit, tuple(parts)
+
+    def __repr__(self):
+        head = f"Box({self.shape}, {self.dtype}"
+        low, high = self.low.ravel(), self.high.ravel()
+        if self.parts:
+            return head + ": " + ", ".join(
+                f"{name} {a:g} to {b:g} {unit}".rstrip() for (name, unit), a, b in zip(self.parts, low, high)) + ")"
+        return head + f", {low.min():g} to {high.max():g} {self.unit}".rstrip() + ")"

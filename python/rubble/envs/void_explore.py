@@ -43,12 +43,14 @@ class VoidExplore(Env):
         self._worlds = VoidWorlds(pile_seeds, lambda seed: VoidWorld(mission, seed, radius, voxel, size, fov_deg,
                                                                      max_range, colour, threads))
         self._world = None
-        self.action_space = Box(-1.0, 1.0, (4,), np.float32)
-        spaces = {"clearance": Box(0.0, max_range, (1,), np.float32),
-                  "depth": Box(0.0, max_range, (size, size), np.float32),
-                  "pose": Box(-1000.0, 1000.0, (4,), np.float32)}
+        self.action_space = Box(-1.0, 1.0, (4,), np.float32, parts=[
+            (way, f"of {speed:g} m/s") for way in ("forwards", "left", "up")] + [("turning to the left", f"of {turn_rate:g} rad/s")])
+        spaces = {"clearance": Box(0.0, max_range, (1,), np.float32, unit="m"),
+                  "depth": Box(0.0, max_range, (size, size), np.float32, unit="m"),
+                  "pose": Box(-1000.0, 1000.0, (4,), np.float32,
+                              parts=[("forwards", "m"), ("left", "m"), ("up", "m"), ("yaw", "rad")])}
         if colour:
-            spaces["rgb"] = Box(0, 255, (size, size, 3), np.uint8)
+            spaces["rgb"] = Box(0, 255, (size, size, 3), np.uint8, unit="levels of sRGB")
         self.observation_space = Dict(spaces)
 
     def reset(self, *, seed=None, options=None):

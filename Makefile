@@ -1,18 +1,19 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo gallery pictures test check test-nightly test-asan test-tsan test-files fuzz mutants faults determinism platforms format clean
+.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo gallery pictures film test check test-nightly test-asan test-tsan test-files fuzz mutants faults pairs determinism platforms format clean
 
 PROGRAM := build/release/rubble
 # Tests have one thread each, so as many run at once as there are processors.
 CTEST   := ctest --output-on-failure --parallel $(shell nproc)
 
 help:
-	@echo "make demo       install what is missing, build, and run scripts/first_pile.lua"
+	@echo "make demo       install what is missing, build, and run scripts/demo.lua"
 	@echo "make test       install what is missing, build, and run the test suite"
 	@echo "make check T=kernel  build and run the tests of one part, or suites of it: T=app.Batch"
 	@echo "make gallery    write docs/gallery.md and its pictures"
 	@echo "make pictures   draw the other pictures of the documents"
+	@echo "make film       make the film of the demo: docs/pictures/demo.mp4"
 	@echo "make build      build the program and its assets only: $(PROGRAM)"
 	@echo "make all        build everything, with the tests and benches"
 	@echo "make install PREFIX=/usr/local  install the program, its assets, manual pages and completions"
@@ -29,6 +30,7 @@ help:
 	@echo "make fuzz SECONDS=60  run every fuzz target for this time, two at once (docs/development/reliability.md)"
 	@echo "make mutants    break the code on purpose, one fault at a time: which tests notice? (half an hour)"
 	@echo "make faults     interrupt a small run at many places, continue it, compare the bytes (an hour)"
+	@echo "make pairs      any two features of a mission together, judged by their data; goes on where it stopped (docs/development/pairs.md)"
 	@echo "make determinism  compare hashes of other compilers, levels and processors (half an hour)"
 	@echo "make platforms PLATFORM=debian13  demo and tests in a bare Debian 13; or windows, riscv64, arm64 (docs/development/platforms.md)"
 	@echo "make format     clang-format over the tree"
@@ -87,14 +89,18 @@ live: packages
 	cmake --preset release -DBUILD_TESTING=ON
 	cmake --build --preset release
 
+# A dataset with its contact sheet out/demo/preview.png, and its page.
 demo: build
-	$(PROGRAM) run scripts/first_pile.lua --out out/first_pile --force
+	$(PROGRAM) run scripts/demo.lua --out out/demo --force
+	$(PROGRAM) view out/demo
 
-# The picture of the README, from the frames that the demo recorded; its voids, a sheet of each pack,
-# each collapse mode cut open, and the missions that documents show.
-pictures: demo
+# The pile of the tutorial and its voids, a sheet of each pack, each collapse mode cut open, and the missions that
+# documents show, those of ruins and of LiDARs with their tables. The gallery, the film and what `rubble drive`
+# shows are not among them: docs/development/contributing.md.
+pictures: build
 	@tools/install_packages.sh tools/packages-pictures.txt
 	mkdir -p docs/pictures
+	$(PROGRAM) run scripts/first_pile.lua --out out/first_pile --force
 	tools/frames_of_bag.py out/first_pile/mission.bag docs/pictures/first_pile.png 341 0 55 118
 	for pack in concrete residential parking bridge victims; do \
 	  $(PROGRAM) assets show $$pack --tile 168 --out docs/pictures/pack_$$pack.jpg || exit 1; done
@@ -102,7 +108,17 @@ pictures: demo
 	cp out/first_pile/voids/plan_r200.png docs/pictures/void_plan.png
 	cp out/first_pile/voids/cut_y_r200.png docs/pictures/void_cut.png
 	tools/collapse_pictures.sh
-	tools/mission_pictures.py
+	tools/mission_pictures.py --program $(PROGRAM)
+	tools/draw_ruins.py --program $(PROGRAM) docs/explanation/collapse.md
+	tools/draw_ruins.py --program $(PROGRAM) --kinds docs/explanation/collapse.md
+	$(PROGRAM) run scripts/lidar.lua --out out/lidar --force
+	$(PROGRAM) run scripts/lidar.lua --set fogdensity=0.1 --out out/lidar_smoke --force
+	/usr/bin/python3 tools/draw_lidar.py out/lidar top docs/pictures/lidar.png --beside out/lidar_smoke
+
+film: build
+	@tools/install_packages.sh tools/packages-pictures.txt
+	rm -rf out/film
+	tools/draw_film.py --program $(PROGRAM)
 
 # Every picture of docs/gallery.md, from bundled missions.
 gallery: all
@@ -156,6 +172,11 @@ mutants: all
 # 200 kills, and 40 places of each call that can fail.
 faults: build
 	tests/faults/run_faults.py $(PROGRAM) build/faults 200 40
+
+# Two hours on two processors at most; what is done is kept in build/pairs, by the hash of the program.
+# PAIRS_OPTIONS: see tests/pairs/run_pairs.py.
+pairs: all
+	tests/pairs/run_pairs.py $(PROGRAM) build/pairs --python build/release/python --report docs/development/pairs.md $(PAIRS_OPTIONS)
 
 # Not part of any suite: it installs compilers and builds the kernel fifteen times.
 determinism: packages

@@ -3,7 +3,7 @@
 rubble/CrawlerNav-v0 and rubble/SnakeExplore-v0; and memory at the end. A step of the last two is 0.1 s.
 
 usage: PYTHONPATH=build/release/python /usr/bin/python3 bench/envs_bench.py [--steps 500] [--threads 1,2]
-       ... --colour --write docs/reference/python.md   writes the table into a document, between its marks
+       ... --colour --write docs/development/robots.md   writes the table into a document, between its marks
 """
 import argparse
 import os

@@ -10,6 +10,10 @@ namespace {
 
 using Json = nlohmann::json;
 
+std::vector<std::string> read_set(const Json& json) {
+  return json.value("set", std::vector<std::string>());
+}
+
 GalleryPicture read_picture(const Json& json, const Json& section) {
   GalleryPicture picture;
   picture.name = json.at("name");
@@ -17,15 +21,30 @@ GalleryPicture read_picture(const Json& json, const Json& section) {
   picture.frame = json.value("frame", 0);
   picture.channel = json.value("channel", std::string("colour"));
   picture.caption = json.at("caption");
-  for (const Json& change : section.value("set", Json::array())) picture.set.push_back(change);
-  for (const Json& change : json.value("set", Json::array())) picture.set.push_back(change);
+  picture.set = read_set(section);
+  for (const std::string& change : read_set(json)) picture.set.push_back(change);
   return picture;
 }
 
-std::string command_of(const GalleryPicture& picture) {
-  std::string text = "rubble run " + picture.mission;
-  for (const std::string& change : picture.set) text += " --set '" + change + "'";
+// " `mission` `key=value` ..."
+std::string code_of(const std::string& mission, const std::vector<std::string>& set) {
+  std::string text;
+  if (!mission.empty()) text += " `" + mission + "`";
+  for (const std::string& change : set) text += " `" + change + "`";
   return text;
+}
+
+std::string page_of(const GallerySection& section) {
+  std::string page = "\n## " + section.title + "\n";
+  if (!section.text.empty()) page += "\n" + section.text + "\n";
+  if (const std::string common = code_of(section.mission, section.set); !common.empty())
+    page += "\nAll pictures:" + common + "\n";
+  for (const GalleryPicture& picture : section.pictures) {
+    const std::vector<std::string> own(picture.set.begin() + static_cast<long>(section.set.size()), picture.set.end());
+    page += "\n![" + picture.name + "](pictures/gallery/" + picture.name + ".jpg)\n\n" + picture.caption +
+            code_of(picture.mission == section.mission ? "" : picture.mission, own) + "\n";
+  }
+  return page;
 }
 
 }  // namespace
@@ -37,7 +56,8 @@ Gallery load_gallery(const std::string& path) {
   try {
     const Json list = Json::parse(file);
     for (const Json& json : list.at("sections")) {
-      GallerySection section{json.at("title"), json.value("text", std::string()), {}};
+      GallerySection section{json.at("title"), json.value("text", std::string()), json.value("mission", std::string()),
+                             read_set(json), {}};
       for (const Json& picture : json.at("pictures"))
         section.pictures.push_back(read_picture(picture, json));
       gallery.sections.push_back(section);
@@ -50,16 +70,10 @@ Gallery load_gallery(const std::string& path) {
 
 std::string gallery_page(const Gallery& gallery) {
   std::string page =
-      "# Gallery\n\n`make gallery` draws every picture here from the bundled missions and writes this\n"
-      "page; [gallery.json](gallery.json) lists them. Below each is the command whose recording holds "
-      "it.\n";
-  for (const GallerySection& section : gallery.sections) {
-    page += "\n## " + section.title + "\n";
-    if (!section.text.empty()) page += "\n" + section.text + "\n";
-    for (const GalleryPicture& picture : section.pictures)
-      page += "\n![" + picture.name + "](pictures/gallery/" + picture.name + ".jpg)\n\n" +
-              picture.caption + "\n\n    " + command_of(picture) + "\n";
-  }
+      "# Gallery\n\n`make gallery` draws these pictures from bundled missions; [gallery.json](gallery.json) lists them.\n"
+      "Below each picture are the mission and the keys that it changes, for `--set`:\n\n"
+      "    rubble run scripts/collapse/lean_to.lua --set camera.width=720 --set camera.height=540 --set lamp.on=false\n";
+  for (const GallerySection& section : gallery.sections) page += page_of(section);
   return page;
 }
 

@@ -1,5 +1,5 @@
--- Into the deepest void, whatever the seed: the mission names the void, and the way around all that
--- lies there is found once the pile has settled. flight.json holds the way that was flown.
+-- A flight into the deepest void, for any seed: the path around obstacles is planned after the pile has
+-- settled. flight.json holds the path.
 local void = rubble.find_void { radius = 0.22, by = "depth" }
 
 return rubble.mission {

@@ -1,4 +1,4 @@
--- What a structured-light sensor would report, beside the exact depth: steps, noise that grows with
+-- The depth of a structured-light sensor, beside the exact depth: steps, noise that grows with
 -- the square of the distance, shadows of the projector, lost edges, and smoke in the way.
 return rubble.mission {
   seed = 3,

@@ -1,4 +1,4 @@
--- The mission of `make demo`: two floor slabs of a collapsed building lean on what is left of a
+-- A pile of loose pieces: two floor slabs of a collapsed building lean on what is left of a
 -- wall, 1,200 pieces have come down over them, and a camera flies over the pile and into the void
 -- beneath (the collapse mode that rescue services call a lean-to).
 

@@ -1,5 +1,5 @@
--- A fisheye of 190 degrees (Kannala-Brandt). Depth is along the optical axis, so it ends where
--- that is nothing: at 90 degrees from the axis.
+-- A fisheye of 190 degrees (Kannala-Brandt). Depth is along the optical axis, so pixels
+-- at 90 degrees from the axis and beyond have none.
 return rubble.mission {
   seed = 3,
   pile = { layers = 1, pieces_per_layer = 40, spawn_position = { 0, 0, 2.5 }, spawn_bounds = { 4, 4, 3 } },

@@ -1,4 +1,4 @@
--- The least that makes a mission: everything else has a default.
+-- The shortest mission: every other key has its default.
 return rubble.mission {
   seed = 5,
   pile = { layers = 1, pieces_per_layer = 60 },

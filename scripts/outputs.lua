@@ -1,4 +1,4 @@
--- Every format at once, with every channel: what docs/reference/formats.md describes.
+-- All formats of docs/reference/formats.md, with all channels.
 return rubble.mission {
   seed = 2,
   start_ns = 1700000000000000000,

@@ -1,5 +1,4 @@
--- A recorded path, flown again: hand_held.txt is in TUM format. Twice as slow as it was, and never
--- faster than 1 m/s.
+-- A recorded path, flown again at half its speed, at most 1 m/s. hand_held.txt is in TUM format.
 return rubble.mission {
   seed = 2,
   pile = { layers = 1, pieces_per_layer = 60, spawn_position = { 0, 0, 2.5 }, spawn_bounds = { 4, 4, 3 } },

@@ -1,4 +1,4 @@
--- The reference renderer: light by path tracing, its noise filtered; depth and channels as ever.
+-- The reference renderer: colours by path tracing, denoised. Depth and channels are the same as otherwise.
 return rubble.mission {
   seed = 2,
   pile = { layers = 1, pieces_per_layer = 40, spawn_position = { 0, 0, 2.5 }, spawn_bounds = { 4, 4, 3 } },

@@ -1,5 +1,5 @@
--- A camera with a body of 15 cm that may touch nothing: move the last waypoint into the heap, and
--- the run stops with the time and the place of the contact.
+-- A camera with a body of 15 cm that must not touch anything. If you move the last waypoint into the
+-- heap, the run stops and states the time and the place of the contact.
 return rubble.mission {
   seed = 2,
   pile = { layers = 1, pieces_per_layer = 60, spawn_position = { 0, 0, 2.5 }, spawn_bounds = { 4, 4, 3 } },

@@ -1,5 +1,5 @@
--- Limits on speed, acceleration and turning: the path stays as it is and is flown more slowly where
--- it asks for too much.
+-- Limits on speed, acceleration and turning: the path is unchanged, and the camera flies it more
+-- slowly where a limit is reached.
 return rubble.mission {
   seed = 2,
   pile = { layers = 1, pieces_per_layer = 60, spawn_position = { 0, 0, 2.5 }, spawn_bounds = { 4, 4, 3 } },

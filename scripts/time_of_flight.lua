@@ -1,5 +1,5 @@
--- A time-of-flight sensor: pixels that fly between two surfaces at edges, ranges that wrap, and
--- smoke that answers before the surface does.
+-- A time-of-flight sensor: flying pixels at edges, ranges that wrap, and echoes of smoke in front of the
+-- surface.
 return rubble.mission {
   seed = 3,
   pile = { layers = 1, pieces_per_layer = 40, spawn_position = { 0, 0, 2.5 }, spawn_bounds = { 4, 4, 3 } },

@@ -11,11 +11,16 @@ import os
 import subprocess
 import sys
 
-import cv2
+os.environ["OPENCV_IO_ENABLE_OPENEXR"] = "1"  # before OpenCV is loaded: depths are EXR files
+
+import cv2  # noqa: E402
+import numpy as np  # noqa: E402
 
 FOLDER = "docs/pictures"
 JPEG = [cv2.IMWRITE_JPEG_QUALITY, 88]
 NOT_SETTLED = 3  # exit code of rubble run and settle
+GAP = 6  # between pictures; pixels
+NEAR, FAR = 0.3, 8.0  # of the colours of depth, on a logarithmic scale; m
 
 
 class Frames:
@@ -24,12 +29,22 @@ class Frames:
     def __init__(self, *indices, columns=1, width=None):
         self.indices, self.columns, self.width = indices, columns, width
 
-    def draw(self, program, run, path):
+    def picture(self, program, run):
         cells = [read(os.path.join(run, "frames", "rgb", f"{i:06d}.png")) for i in self.indices]
         if self.width:
             cells = [resize(c, self.width) for c in cells]
         rows = [cv2.hconcat(cells[i:i + self.columns]) for i in range(0, len(cells), self.columns)]
-        write(path, cv2.vconcat(rows))
+        return cv2.vconcat(rows)
+
+
+class Depth:
+    """The depth of a frame in the colours of the contact sheet."""
+
+    def __init__(self, index):
+        self.index = index
+
+    def picture(self, program, run):
+        return colour_depth(os.path.join(run, "frames", "depth", f"{self.index:06d}.exr"))
 
 
 class Preview:
@@ -38,8 +53,8 @@ class Preview:
     def __init__(self, width):
         self.width = width
 
-    def draw(self, program, run, path):
-        write(path, resize(read(os.path.join(run, "preview.png")), self.width))
+    def picture(self, program, run):
+        return resize(read(os.path.join(run, "preview.png")), self.width)
 
 
 class Section:
@@ -48,13 +63,32 @@ class Section:
     def __init__(self, y, width=None):
         self.options = ["--y", str(y)] + (["--width", str(width)] if width else [])
 
-    def draw(self, program, run, path):
+    def picture(self, program, run):
         cut = os.path.join(run, "section.png")
         subprocess.run([program, "cutaway", run, *self.options, "--out", cut], check=True, stdout=subprocess.DEVNULL)
-        write(path, read(cut))
+        return read(cut)
 
 
-PICTURES = {  # file name: mission, what of it
+class Beside:
+    """A large picture, two small ones in a column on its right, and a wide one below; width: of all, in pixels."""
+
+    def __init__(self, large, upper, lower, below, width):
+        self.parts, self.below, self.width = (large, upper, lower), below, width
+
+    def picture(self, program, run):
+        large, upper, lower = (part.picture(program, run) for part in self.parts)
+        wide = round((self.width - GAP) * 2 / 3)
+        large = resize(large, wide)
+        small = [fit(part, (self.width - GAP - wide, (large.shape[0] - GAP) // 2)) for part in (upper, lower)]
+        rest = large.shape[0] - small[0].shape[0] - small[1].shape[0]
+        column = cv2.vconcat([small[0], paper(rest, small[0].shape[1]), small[1]])
+        top = cv2.hconcat([large, paper(large.shape[0], GAP), column])
+        return cv2.vconcat([top, paper(GAP, self.width), resize(self.below.picture(program, run), self.width)])
+
+
+LARGE = ("camera.width=1024", "camera.height=768", "camera.sensor.pixel_samples=2", "lidars.top.rate_hz=1")
+PICTURES = {  # file name: mission, what of it, and keys of the mission for a picture that is larger or smaller
+    "demo.png": ("scripts/demo.lua", Beside(Frames(5), Depth(5), Frames(10), Section(-3.6, width=1100), width=1100), *LARGE),
     "terrain.jpg": ("scripts/terrain.lua", Frames(0)),
     "record_settling.jpg": ("scripts/record_settling.lua", Preview(width=1200)),
     "robots.jpg": ("scripts/robots/portrait.lua", Frames(1)),
@@ -68,8 +102,8 @@ PICTURES = {  # file name: mission, what of it
 }
 
 
-def read(path):
-    image = cv2.imread(path)
+def read(path, how=cv2.IMREAD_COLOR):
+    image = cv2.imread(path, how)
     if image is None:
         sys.exit(f"{path}: no such picture")
     return image
@@ -80,6 +114,29 @@ def resize(image, width):
     return cv2.resize(image, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
 
 
+def fit(image, size):
+    """Scaled to the size; what does not fit is cut off."""
+    scale = max(size[0] / image.shape[1], size[1] / image.shape[0])
+    way = cv2.INTER_AREA if scale < 1 else cv2.INTER_CUBIC
+    image = cv2.resize(image, None, fx=scale, fy=scale, interpolation=way)
+    y, x = (image.shape[0] - size[1]) // 2, (image.shape[1] - size[0]) // 2
+    return image[y:y + size[1], x:x + size[0]].copy()
+
+
+def paper(height, width):
+    return np.full((height, width, 3), 255, np.uint8)
+
+
+def colour_depth(path):
+    """Near is warm, as on the contact sheet; no return is grey. The file has metres."""
+    metres = read(path, cv2.IMREAD_UNCHANGED)
+    seen = np.isfinite(metres) & (metres > 0)
+    share = np.log(np.where(seen, metres, FAR) / NEAR) / np.log(FAR / NEAR)
+    colours = cv2.applyColorMap(np.uint8(255 * (1 - np.clip(share, 0, 1))), cv2.COLORMAP_TURBO)
+    colours[~seen] = (52, 48, 46)
+    return colours
+
+
 def write(path, image):
     """Under another name first, so that a picture is never half written."""
     base, ending = os.path.splitext(path)
@@ -88,12 +145,14 @@ def write(path, image):
     os.replace(part, path)
 
 
-def run_mission(program, mission, folder):
+def run_mission(program, mission, folder, keys):
     """A mission of which only sections are shown is settled and not flown."""
-    if all(isinstance(part, Section) for other, part in PICTURES.values() if other == mission):
+    if all(isinstance(row[1], Section) for row in PICTURES.values() if row[0] == mission):
         command = [program, "settle", mission]
     else:
         command = [program, "run", mission, "--set", "outputs.frames=true"]
+    for key in keys:
+        command += ["--set", key]
     command += ["--quiet", "--force", "--out", folder]
     code = subprocess.run(command, stdout=subprocess.DEVNULL).returncode
     if code not in (0, NOT_SETTLED):
@@ -112,13 +171,13 @@ def main():
     names = args.names or list(PICTURES)
     done = set()  # missions: some have two pictures
     for i, name in enumerate(names):
-        mission, part = PICTURES[name]
+        mission, part, *keys = PICTURES[name]
         print(f"{i + 1} of {len(names)}: {name}", flush=True)
         run = os.path.join(args.out, mission[len("scripts/"):-len(".lua")].replace("/", "_"))
         if mission not in done:
-            run_mission(args.program, mission, run)
+            run_mission(args.program, mission, run, keys)
             done.add(mission)
-        part.draw(args.program, run, os.path.join(FOLDER, name))
+        write(os.path.join(FOLDER, name), part.picture(args.program, run))
 
 
 if __name__ == "__main__":

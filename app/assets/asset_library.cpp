@@ -196,7 +196,7 @@ std::string bundled_assets_folder() {
   std::error_code failed;
   const fs::path beside = fs::read_symlink("/proc/self/exe", failed).parent_path();
   if (failed)
-    throw InputError({"/proc/self/exe", 0, "RUBBLE_ASSETS", "cannot tell where the program lies", "",
+    throw InputError({"/proc/self/exe", 0, "RUBBLE_ASSETS", "cannot find the folder of the program", "",
                       failed.message(), "mount /proc, or set RUBBLE_ASSETS to the folder of the "
                                         "bundled packs"});
   const fs::path places[] = {beside / "assets", beside / "../share/rubble/assets"};

@@ -38,20 +38,7 @@ std::string describe_length(double metres) {
   return text;
 }
 
-// Of a part that its file gives more corners than collision takes.
-constexpr double kSimplified = 0.0025;  // of its size: how much of it is lost at most, if it has not the corners for it
-
-constexpr std::size_t kManyPoints = 5000;  // whose hull takes long if it has many corners
-constexpr double kHullGrid = 1e-5;         // of its size: corners that stand out by less do not count then
-
-// The number of corners that is too many, in words; empty: there are few enough.
-std::string too_many_corners(const ConvexPart& part, double size) {
-  if (part.points.size() <= kMostPartCorners) return "";
-  if (part.points.size() > kManyPoints)
-    return simplify_hull(part.points, kMostPartCorners, kHullGrid * size).error > kHullGrid * size ? "many" : "";
-  const std::size_t corners = calc_hull(part.points).points.size();
-  return corners > kMostPartCorners ? std::to_string(corners) : "";
-}
+constexpr double kSimplified = 0.0025;  // of the size of a part with too many corners: how much of it is lost, if it can be so little
 
 void simplify_part(const std::string& file, ConvexPart& part, std::vector<std::string>& warnings) {
   Aabb box;
@@ -59,10 +46,11 @@ void simplify_part(const std::string& file, ConvexPart& part, std::vector<std::s
   const Vec3 extent = box.max - box.min;
   const double size = std::max({extent.x, extent.y, extent.z});
   try {
-    const std::string corners = too_many_corners(part, size);
-    if (corners.empty()) return;
+    if (part.points.size() <= kMostPartCorners) return;
+    const std::size_t corners = calc_hull(part.points).points.size();
+    if (corners <= kMostPartCorners) return;
     SimpleHull simple = simplify_hull(part.points, kMostPartCorners, kSimplified * size);
-    warnings.push_back(file + ": its hull has " + corners + " corners, more than the " + std::to_string(kMostPartCorners) +
+    warnings.push_back(file + ": its hull has " + std::to_string(corners) + " corners, more than the " + std::to_string(kMostPartCorners) +
                        " that a part may have: it collides with " + std::to_string(simple.points.size()) +
                        " of them, from which no other stands out by more than " + describe_length(simple.error));
     part.points = std::move(simple.points);
@@ -182,13 +170,14 @@ void warn_of_size(const Asset& asset, const TriangleMesh& mesh, std::vector<std:
 // A surface that `looks` names and no mesh of the asset has.
 void warn_of_surface_appearances(const Asset& asset, const std::vector<std::string>& surfaces,
                                  std::vector<std::string>& warnings) {
+  if (is_variant(asset)) return;  // which names every look that the other material changes, whoever has it
   for (const auto& [name, look] : asset.surface_appearance) {
     if (std::find(surfaces.begin(), surfaces.end(), name) != surfaces.end()) continue;
     const std::string near = nearest_name(name, surfaces);
     std::string there;
     for (const std::string& surface : surfaces) there += (there.empty() ? "`" : ", `") + surface + "`";
     warnings.push_back(asset.meshes.front() + ": `looks` of `" + asset.name +
-                       "` names the surface `" + name + "`, which the mesh has not: " +
+                       "` names the surface `" + name + "`, which the mesh does not have: " +
                        (near.empty() ? "it has " + there : "did you mean `" + near + "`?"));
   }
 }
@@ -203,7 +192,8 @@ LoadedAsset load_asset(const Asset& asset, MeshImporter& importer) {
   for (const std::string& path : asset.meshes) {
     mesh->levels.push_back(importer.load_mesh(path, units));
     TriangleMesh& level = mesh->levels.back();
-    surfaces.insert(surfaces.end(), level.surface_names.begin(), level.surface_names.end());
+    for (const std::string& name : level.surface_names)
+      if (std::find(surfaces.begin(), surfaces.end(), name) == surfaces.end()) surfaces.push_back(name);
     choose_surfaces(level, [&asset](const std::string& surface, const SurfacePaint* paint) {
       return choose_surface_appearance(asset, surface, paint);
     });

@@ -21,7 +21,7 @@ void remake_terrain(const AssetContent& wanted, const TerrainScenario& spec,
                     AssetLibrary& library) {
   add_terrain(spec, folders, library);
   if (library.contents.back().sha256 == wanted.sha256) return;
-  throw InputError({file, 0, "assets", "the terrain is another one now",
+  throw InputError({file, 0, "assets", "the terrain has changed",
                     "the content " + wanted.sha256, library.contents.back().sha256,
                     "name the folder of its file with --assets"});
 }
@@ -181,7 +181,7 @@ void recall_robots(const Provenance& provenance, const std::vector<std::string>&
     const RobotContent& wanted = provenance.robots[i];
     const std::string found = i < library.robots.size() ? library.robots[i].sha256 : "no such robot";
     if (found != wanted.sha256)
-      throw InputError({provenance.script.path, 0, "robots", "the URDF file \"" + wanted.urdf + "\" or a mesh of it is another one now",
+      throw InputError({provenance.script.path, 0, "robots", "the URDF file \"" + wanted.urdf + "\" or one of its meshes has changed",
                         "the content " + wanted.sha256, found, "name the folder of the file as it was with --assets"});
   }
 }

@@ -34,6 +34,8 @@ std::string variant_name(const std::string& asset, const std::string& material) 
   return asset + " of " + material;
 }
 
+bool is_variant(const Asset& asset) { return ends_with(asset.name, variant_name("", asset.material)); }
+
 Asset make_variant(const Asset& asset, const Material& material) {
   Asset variant = asset;
   variant.name = variant_name(asset.name, material.name);

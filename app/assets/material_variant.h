@@ -12,6 +12,9 @@ namespace rubble {
 // "chunk_1 of brick": the variant's name, which is its type's.
 std::string variant_name(const std::string& asset, const std::string& material);
 
+// Whether an asset is such a variant.
+bool is_variant(const Asset& asset);
+
 // Density and friction are the material's, whatever the pack says of this asset. Surfaces that look
 // like the asset's own material look like the new one, broken faces like its breaks; others (bars,
 // fittings) stay. The asset has a mesh.

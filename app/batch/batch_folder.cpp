@@ -50,7 +50,7 @@ void BatchFolder::open(const std::string& description) const {
                                                   parse_json_text(description, "this batch"));
     if (!apart.empty())
       throw InputError({path_, 0, "--out", "another batch is in the output folder: " + apart, "",
-                        "", "choose another folder, or run what was begun there"});
+                        "", "choose another folder, or continue the batch in it"});
     return;
   }
   if (!fs::is_empty(path_, failed) && fs::exists(path_ + "/manifest.json", failed))

@@ -40,12 +40,12 @@ Manifest read_trusted_manifest(const std::string& folder, std::uint64_t seed,
   const FinishedRun saved = open_finished_run(folder);
   const std::string path = folder + "/manifest.json";
   if (saved.manifest.seed != seed)
-    throw InputError({path, 0, "seed", "is of another seed", std::to_string(seed),
+    throw InputError({path, 0, "seed", "belongs to another seed", std::to_string(seed),
                       std::to_string(saved.manifest.seed), ""});
   const std::vector<std::string>& set = saved.manifest.provenance.overrides;
   for (const std::string& text : varied)
     if (std::find(set.begin(), set.end(), text) == set.end())
-      throw InputError({path, 0, "request", "is of another value", text, "", ""});
+      throw InputError({path, 0, "request", "belongs to another value", text, "", ""});
   load_pile_of(saved);
   return saved.manifest;
 }

@@ -47,7 +47,7 @@ std::vector<std::string> split(const std::string& text) {
 
 Varied parse(const std::string& text) {
   const std::size_t equals = text.find('=');
-  if (equals == 0 || equals == std::string::npos) fail(text, "not a key and what it is varied over");
+  if (equals == 0 || equals == std::string::npos) fail(text, "not a key with its values");
   Varied varied;
   varied.key = text.substr(0, equals);
   const std::string rest = text.substr(equals + 1);
@@ -62,7 +62,7 @@ Varied parse(const std::string& text) {
   std::vector<std::string> sorted = varied.values;
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
-    fail(text, "a value stands there twice");
+    fail(text, "a value occurs twice");
   return varied;
 }
 

@@ -18,7 +18,7 @@ SplitShares parse_shares(const std::string& text) {
     at = read.ptr;
   }
   if (!good || at != end || shares[0] + shares[1] + shares[2] != 100)
-    throw InputError({"", 0, "--splits", "no shares of a dataset",
+    throw InputError({"", 0, "--splits", "not shares of a dataset",
                       "three whole numbers of percent whose sum is 100, as in 80,10,10", text, ""});
   return {shares[0], shares[1], shares[2]};
 }

@@ -2,9 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <sstream>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "app/assets/asset_library.h"
@@ -35,7 +39,9 @@ std::string to_text(const std::vector<T>& values) {
 
 template <typename T>
 Option add_bound(CLI::App& command, const std::string& name, T& member, const std::string& help) {
-  return Option(*command.add_option(name, member, help), to_text(member));
+  Option option(*command.add_option(name, member, help), to_text(member));
+  if constexpr (!std::is_same_v<T, std::string>) option.metavar("N");  // until the command names it
+  return option;
 }
 
 template <typename T>
@@ -65,15 +71,23 @@ Option& Option::shows_default_text(const std::string& text) {
 Option& Option::required() { return option_->required(), *this; }
 
 Option& Option::between(int least, int most) {
-  return option_->check(CLI::Range(least, most)), *this;
+  return option_->check(CLI::Range(least, most, to_text(least) + ".." + to_text(most))), *this;
 }
 
 Option& Option::within(double least, double most) {
-  return option_->check(CLI::Range(least, most)), *this;
+  const auto limit = [](double value) {  // 1000000, not 1e+06
+    return value == std::floor(value) ? std::to_string(std::int64_t(value)) : to_text(value);
+  };
+  return option_->check(CLI::Range(least, most, limit(least) + ".." + limit(most))), *this;
 }
 
-Option& Option::positive() { return option_->check(CLI::PositiveNumber), *this; }
-Option& Option::non_negative() { return option_->check(CLI::NonNegativeNumber), *this; }
+Option& Option::positive() {
+  using Limits = std::numeric_limits<double>;
+  return option_->check(CLI::Range(Limits::min(), Limits::max(), ">0")), *this;
+}
+Option& Option::non_negative() {
+  return option_->check(CLI::Range(0.0, std::numeric_limits<double>::max(), ">=0")), *this;
+}
 
 Option& Option::separated_by(char delimiter) {
   // Then what follows in the same word belongs to it, and as many words as there are.
@@ -182,7 +196,7 @@ void add_sandbox_option(const Command& command, CommandLine& line, std::string& 
   const std::string name = command.name;
   if (name == "completion" || name == "manual") return;
   line.add("--sandbox", folder,
-           "For missions of strangers: read files only below this folder, and write only to the output folder")
+           "For missions from strangers: read files only below this folder, and write only to the output folder")
       .metavar("DIR");
 }
 
@@ -212,7 +226,7 @@ OptionDescription describe(const CLI::Option& option) {
   for (const std::string& name : option.get_snames()) text.names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) text.names.push_back("--" + name);
   text.help = option.get_description();
-  if (option.get_items_expected_max() > 0) {  // "INT:INT in [0 - 8]": what it is, then what it may be
+  if (option.get_items_expected_max() > 0) {  // "N:0..8": what it is, then what it may be
     const std::string type = option.get_type_name();
     const std::size_t colon = type.find(':');
     text.value = type.substr(0, colon);

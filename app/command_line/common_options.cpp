@@ -6,10 +6,10 @@
 namespace rubble {
 
 void add_mission_options(CommandLine& line, RunRequest& request, const std::string& name) {
-  line.add(name, request.mission, "The mission: a Lua script").required();
-  line.add("--set", request.overrides, "Override a key of the mission, as in pile.layers=3")
+  line.add(name, request.mission, "The mission: a Lua script").required().metavar("FILE");
+  line.add("--set", request.overrides, "Set a key of the mission, as in pile.layers=3")
       .metavar("KEY=VALUE");
-  add_packs_option(line, request.asset_packs, "An additional folder with a pack.lua");
+  add_packs_option(line, request.asset_packs, "Additional asset pack: a folder with a pack.lua");
 }
 
 void add_seed_option(CommandLine& line, RunRequest& request) {
@@ -22,22 +22,22 @@ void add_seed_option(CommandLine& line, RunRequest& request) {
     request.seed = std::uint64_t(seed);
     return "";
   };
-  line.add_read("--seed", read, "Seed of all random numbers; overrides that of the script").metavar("UINT");
+  line.add_read("--seed", read, "Seed of all random numbers; replaces that of the script").metavar("N");
 }
 
 void add_track_option(CommandLine& line, RunRequest& request) {
   line.add_flag("--track", request.track,
-                "Record the motion of the settling pile: track.bin, and track.glb, a glTF animation");
+                "Record the motion of the settling pile as track.bin and as the glTF animation track.glb");
 }
 
 void add_threads_option(CommandLine& line, int& threads) {
   line.add("--threads", threads,
-           "Number of threads; 0: one per processor. Results do not depend on it")
+           "Number of threads; 0: one per processor. The results do not depend on it")
       .between(0, 256);
 }
 
 void add_device_option(CommandLine& line, int& device) {
-  line.add("--gl-device", device, "Number of the EGL device that draws")
+  line.add("--gl-device", device, "Number of the EGL device for rendering")
       .shows_default_text(
           "$RUBBLE_EGL_DEVICE, or the first device that works, hardware before software")
       .metavar("N")
@@ -76,12 +76,12 @@ void add_output_options(CommandLine& line, RunRequest& request) {
 
 void add_preview_option(CommandLine& line, RunRequest& request) {
   line.add_flag("--preview", request.preview,
-                "Print the number of pieces and frames, disk space and approximate time; run nothing");
+                "Print the numbers of pieces and frames, the disk space and the approximate time. Run nothing");
 }
 
 void add_folder_options(CommandLine& line, FolderRequest& request) {
-  line.add("folder", request.folder, "The output folder of a run").required();
-  add_packs_option(line, request.asset_packs, "A folder with packs of the run, if they were moved");
+  line.add("folder", request.folder, "The output folder of a run").required().metavar("DIR");
+  add_packs_option(line, request.asset_packs, "Folder of an asset pack of the run, if it was moved");
 }
 
 void add_jobs_options(CommandLine& line, int& jobs, RunOptions& options) {
@@ -93,13 +93,13 @@ void add_jobs_options(CommandLine& line, int& jobs, RunOptions& options) {
 }
 
 void add_space_options(CommandLine& line, SpaceRequest& request) {
-  line.add("--radius", request.radii, "Radius of a robot").shows_default().metavar("METRES");
+  line.add("--radius", request.radii, "Radius of a robot; may be repeated").shows_default().metavar("METRES");
   line.add("--voxel", request.voxel, "Edge of a voxel").shows_default().metavar("METRES");
   line.add("--outside-radius", request.outside_radius,
-           "Outside is the space that a ball of this radius reaches from the sky")
+           "Radius of the ball that defines the outside: the space that the ball reaches from the sky")
       .shows_default()
       .metavar("METRES");
-  line.add("--memory", request.memory_gib, "Largest memory; refuse to start if more is needed").shows_default().metavar("GIB");
+  line.add("--memory", request.memory_gib, "Largest memory. The command refuses to start if it needs more").shows_default().metavar("GIB");
 }
 
 void add_score_options(CommandLine& line, ScoreOutput& output) {

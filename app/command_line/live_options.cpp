@@ -26,11 +26,11 @@ void add_ros_options(CommandLine& line, LiveRequest& live, const std::string& te
       .shows_default_text("$ROS_MASTER_URI")
       .metavar("URI")
       .needs(ros1);
-  line.add("--ros-ip", live.ros_ip, "Address of this machine for programs on other machines")
+  line.add("--ros-ip", live.ros_ip, "Address of this machine for subscribers on other machines")
       .shows_default_text("$ROS_IP, or only this machine")
       .metavar("ADDRESS")
       .needs(ros1);
-  Option ros2 = line.add_flag("--ros2", live.ros2, "As --ros1, for ROS 2 over DDS");
+  Option ros2 = line.add_flag("--ros2", live.ros2, "The same for ROS 2, over DDS");
   if (one) ros2.excludes(ros1);
   line.add("--ros-domain", live.ros_domain, "The DDS domain")
       .shows_default_text("$ROS_DOMAIN_ID, or 0")
@@ -38,18 +38,18 @@ void add_ros_options(CommandLine& line, LiveRequest& live, const std::string& te
       .metavar("N")
       .needs(ros2);
   line.add("--ros-interface", live.ros_interface, "The network interface of DDS")
-      .shows_default_text("as $CYCLONEDDS_URI says, or lo")
+      .shows_default_text("that of $CYCLONEDDS_URI, or lo")
       .metavar("NAME")
       .needs(ros2);
 }
 
 void add_live_options(CommandLine& line, LiveRequest& live) {
-  add_ros_options(line, live, "Publish the frames to ROS 1 while they are drawn");
+  add_ros_options(line, live, "Publish the frames to ROS 1 during rendering");
   line.add_read("--rate", [&live](const std::string& text) { return read_rate(text, live.rate); },
-                "How fast to publish: realtime (default), fast, or a factor")
+                "Rate of publishing: realtime (default), fast, or a factor of real time")
       .metavar("RATE");
   line.add("--wait-for-subscribers", live.wait,
-           "Delay the first frame until every topic has a subscriber, at most this long")
+           "Longest time that the first frame waits until every topic has a subscriber")
       .shows_default()
       .metavar("SECONDS")
       .within(0.0, 1e6);

@@ -7,18 +7,18 @@ namespace rubble {
 ProgramText program_text() {
   ProgramText text;
   text.about =
-      "Simulates collapsed structures: a seed and a Lua mission give a settled pile, a "
-      "camera flight, RGB-D frames, an MRPT rawlog, a ROS bag and the ground truth.";
+      "Rubble simulates collapsed structures for robots. From a mission in Lua and a seed it makes a settled pile, "
+      "RGB-D frames along a path, an MRPT rawlog, ROS bags and the ground truth.";
   text.version = "rubble " + build_info().version;
   text.exit_codes = {{0, "done"},    {1, "bad input"},
-                     {2, "failure"}, {3, "finished but did not settle, or lost pieces"},
-                     {4, "stopped by a signal"}, {5, "results or files differ, or are missing"}};
+                     {2, "failure"}, {3, "finished, but the pile did not settle or lost pieces"},
+                     {4, "stopped by a signal"}, {5, "results or files differ or are missing"}};
   text.environment = {
-      {"RUBBLE_ASSETS", "Folder of the bundled packs, instead of `assets` beside the program or "
+      {"RUBBLE_ASSETS", "Folder of the bundled packs; default: `assets` beside the program, or "
                         "`../share/rubble/assets`"},
-      {"RUBBLE_THREADS", "Number of threads where --threads is not given, instead of the number of processors"},
-      {"RUBBLE_CACHE", "Folder of the cache, instead of ~/.cache/rubble; `off`: no cache"},
-      {"RUBBLE_EGL_DEVICE", "Number of the EGL device that draws, as --gl-device"}};
+      {"RUBBLE_THREADS", "Number of threads without --threads; default: one per processor"},
+      {"RUBBLE_CACHE", "Folder of the cache; default: ~/.cache/rubble; `off`: no cache"},
+      {"RUBBLE_EGL_DEVICE", "Number of the EGL device for rendering, as --gl-device"}};
   return text;
 }
 

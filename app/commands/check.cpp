@@ -26,15 +26,7 @@ struct CheckRequest {
 Json json_of(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 // Null where there are no points.
-struct PointBounds {
-  Vec3 min{kNever, kNever, kNever}, max{-kNever, -kNever, -kNever};
-
-  void add(const Vec3& p) {
-    min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
-    max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
-  }
-  Json json() const { return min.x > max.x ? Json() : Json{json_of(min), json_of(max)}; }
-};
+Json json_of(const Aabb& box) { return box.empty() ? Json() : Json{json_of(box.min), json_of(box.max)}; }
 
 const char* name_of(JointKind kind) {
   return kind == JointKind::weld ? "fixed" : kind == JointKind::slider ? "prismatic" : "revolute";
@@ -57,38 +49,40 @@ Json joints_of(const RobotModel& model) {
   return joints;
 }
 
-// The whole robot as one body: all joints at 0, in the frame of the base.
-Json whole_of(const RobotModel& model) {
-  const std::vector<Pose> base_from_links =
-      calc_base_from_links(model, std::vector<double>(model.joints.size(), 0));
+// The whole robot as one body: all joints at 0, in the frame of the first link of its file, which is its base or a link
+// `world` that the base is fixed to.
+Json whole_of(const MissionRobot& robot) {
+  const RobotModel& model = robot.model;
+  std::vector<Pose> first_from_links = calc_base_from_links(model, std::vector<double>(model.joints.size(), 0));
+  for (Pose& pose : first_from_links) pose = robot.placed_from_base * pose;
   const double mass = model.mass();
   Vec3 centre;
   for (std::size_t i = 0; i < model.links.size(); ++i)
-    centre += base_from_links[i] * model.links[i].centre_of_mass * (model.links[i].mass / mass);
+    centre += first_from_links[i] * model.links[i].centre_of_mass * (model.links[i].mass / mass);
   Mat3 inertia = Mat3::diagonal({0, 0, 0});
-  PointBounds collision, visual;
+  Aabb collision, visual;
   for (std::size_t i = 0; i < model.links.size(); ++i) {
     const RobotLink& link = model.links[i];
-    const Mat3 turn = base_from_links[i].rotation.matrix();
-    const Vec3 d = base_from_links[i] * link.centre_of_mass - centre;
+    const Mat3 turn = first_from_links[i].rotation.matrix();
+    const Vec3 d = first_from_links[i] * link.centre_of_mass - centre;
     inertia = inertia + turn * link.inertia * turn.transposed() +
               Mat3::diagonal({dot(d, d), dot(d, d), dot(d, d)}) * link.mass +
               Mat3{{d * d.x, d * d.y, d * d.z}} * -link.mass;
     for (const ConvexPart& part : link.parts)
-      for (const Vec3& p : part.points) collision.add(base_from_links[i] * p);
-    for (const Vec3f& p : link.looks.positions) visual.add(base_from_links[i] * Vec3(p));
+      for (const Vec3& p : part.points) collision.include(first_from_links[i] * p);
+    for (const Vec3f& p : link.looks.positions) visual.include(first_from_links[i] * Vec3(p));
   }
   const Vec3 x = inertia.column(0), y = inertia.column(1), z = inertia.column(2);
   return {{"mass_kg", mass},
           {"centre_of_mass_m", json_of(centre)},
           {"inertia_kg_m2", {x.x, y.y, z.z, y.x, z.x, z.y}},
-          {"collision_bounds_m", collision.json()},
-          {"visual_bounds_m", visual.json()}};
+          {"collision_bounds_m", json_of(collision)},
+          {"visual_bounds_m", json_of(visual)}};
 }
 
 Json json_of(const MissionRobot& robot) {
   Json json{{"name", robot.model.name}};
-  json.update(whole_of(robot.model));
+  json.update(whole_of(robot));
   json["links"] = Json::array();
   for (const RobotLink& link : robot.model.links)
     json["links"].push_back({{"name", link.name}, {"mass_kg", link.mass}, {"parts", link.parts.size()}});
@@ -134,14 +128,14 @@ Action declare_check(CommandLine& line) {
   line.add_print("--schema", mission_json_schema,
                  "Print a JSON Schema of every key of a mission instead");
   line.add_print("--annotations", lua_annotations,
-                 "Print LuaCATS annotations instead, with which editors check and complete missions");
+                 "Print LuaCATS annotations instead, for the checks and completions of editors");
   return [request] { return check_mission(*request); };
 }
 
 }  // namespace
 
 Command check_command() {
-  return {"", "check", "Print the complete scenario as JSON; run nothing", declare_check};
+  return {"", "check", "Check a mission and print its complete scenario as JSON; run nothing", declare_check};
 }
 
 }  // namespace rubble

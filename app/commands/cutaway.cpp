@@ -211,8 +211,8 @@ Action declare_cutaway(CommandLine& line) {
   line.add("--width", request->width, "Width of the picture, in pixels")
       .shows_default()
       .between(200, 4000);
-  line.add("--title", request->title, "Printed above the picture");
-  line.add("--out", request->out, "The picture, .png or .jpg")
+  line.add("--title", request->title, "Title above the picture");
+  line.add("--out", request->out, "Output picture, .png or .jpg")
       .shows_default_text("FOLDER/cutaway.png")
       .metavar("FILE");
   return [of, request] { return draw_cutaway(*of, *request); };
@@ -221,7 +221,7 @@ Action declare_cutaway(CommandLine& line) {
 }  // namespace
 
 Command cutaway_command() {
-  return {"", "cutaway", "Draw a section of a run's pile, to scale", declare_cutaway};
+  return {"", "cutaway", "Draw a section of the pile of a run, to scale", declare_cutaway};
 }
 
 }  // namespace rubble

@@ -33,16 +33,16 @@ Action declare_drive(CommandLine& line) {
   line.add("--steps", request->steps, "Number of steps after which the drive ends")
       .shows_default_text("none")
       .between(0, 1000000000);
-  line.add("--robot", request->robot, "In a mission with robots: which is driven")
+  line.add("--robot", request->robot, "Name of the robot to drive")
       .shows_default_text("the first")
       .metavar("NAME");
-  line.add_flag("--record", request->record, "Write the mission's recordings while driving");
+  line.add_flag("--record", request->record, "Write the recordings of the mission during the drive");
   add_ros_options(line, request->of.options.live,
-                  "Publish the frames to ROS 1, and drive by /cmd_vel and /joy", true);
+                  "Publish the frames to ROS 1, and take commands from /cmd_vel and /joy", true);
   line.add("--out", request->of.out, "Output folder")
       .shows_default_text("out/<script>_drive")
       .metavar("DIR");
-  line.add_flag("--force", request->of.force, "Replace the legs of an earlier drive");
+  line.add_flag("--force", request->of.force, "Replace the files of an earlier drive");
   add_device_option(line, request->of.options.gl_device);
   add_threads_option(line, request->of.options.threads);
   add_quiet_option(line, request->of.options.quiet);
@@ -52,7 +52,7 @@ Action declare_drive(CommandLine& line) {
 }  // namespace
 
 Command drive_command() {
-  return {"", "drive", "Fly the camera or drive a robot by hand in a window, and save that as a mission",
+  return {"", "drive", "Fly the camera or drive a robot in a window, and save the drive as a mission",
           declare_drive};
 }
 

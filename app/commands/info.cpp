@@ -69,7 +69,7 @@ ExitCode print_info(const InfoRequest& request) {
 Action declare_info(CommandLine& line) {
   const auto request = std::make_shared<InfoRequest>();
   line.add_flag("--gl", request->gl,
-                "List every EGL device with its driver or error, and which is chosen");
+                "List every EGL device with its driver or error, and mark the chosen one");
   add_device_option(line, request->gl_device);
   line.add("path", request->paths,
            "Recordings, or folders of runs: list their contents and check their integrity")
@@ -82,7 +82,7 @@ Action declare_info(CommandLine& line) {
 }  // namespace
 
 Command info_command() {
-  return {"", "info", "Print versions, the OpenGL renderer and threads; or check a dataset",
+  return {"", "info", "Print versions, OpenGL renderer and threads; or list and check datasets",
           declare_info};
 }
 

@@ -181,7 +181,7 @@ bool print_report(const std::string& path) {
     throw InputError(
         {path, 0, "", "no such file or folder", "a recording, or the folder of a run", "", ""});
   if (!fs::is_regular_file(path, failed))
-    throw InputError({path, 0, "", "is no file that can be looked into", "a file or a folder",
+    throw InputError({path, 0, "", "cannot be inspected", "a file or a folder",
                       "a pipe or a device", ""});
   const FileReport report = inspect_file(path, stated_hash(path));
   print_row(path, report);

@@ -85,11 +85,11 @@ ExitCode remake(const RemakeRequest& request) {
 
 Action declare_remake(CommandLine& line) {
   const auto request = std::make_shared<RemakeRequest>();
-  line.add("manifest", request->manifest, "manifest.json of a run, or its folder").required();
+  line.add("manifest", request->manifest, "manifest.json of a run, or its folder").required().metavar("PATH");
   line.add("--out", request->out, "Output folder").required().metavar("DIR");
   line.add_flag("--force", request->force, "Replace the files of an earlier run");
   add_packs_option(line, request->asset_packs,
-                   "A folder with packs of the run, if they were moved");
+                   "Folder of an asset pack of the run, if it was moved");
   add_run_options(line, request->options);
   add_checkpoint_option(line, request->options);
   return [request] { return remake(*request); };
@@ -98,7 +98,7 @@ Action declare_remake(CommandLine& line) {
 }  // namespace
 
 Command remake_command() {
-  return {"", "remake", "Make a dataset again from its manifest", declare_remake};
+  return {"", "remake", "Make a dataset again, from its manifest alone", declare_remake};
 }
 
 }  // namespace rubble

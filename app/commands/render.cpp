@@ -20,7 +20,7 @@ Track load_track_of(const std::string& from) {
   std::error_code failed;
   if (!std::filesystem::exists(path, failed))
     throw InputError(
-        {from, 0, "", "the run kept no track of who moved when its pile settled", "a track.bin",
+        {from, 0, "", "the run has no track of the settling pile", "a track.bin",
          "none",
          "run its mission again with --track, or without record_settling and outputs.track"});
   return load_track(path);
@@ -50,7 +50,7 @@ ExitCode render_finished_pile(const std::string& from, const RunRequest& request
 Action declare_render(CommandLine& line) {
   const auto request = std::make_shared<RunRequest>();
   const auto from = std::make_shared<std::string>();
-  line.add("folder", *from, "The output folder of the run with the pile").required();
+  line.add("folder", *from, "The output folder of the run with the pile").required().metavar("DIR");
   add_mission_options(line, *request, "--mission");
   add_seed_option(line, *request);
   add_output_options(line, *request);
@@ -62,7 +62,7 @@ Action declare_render(CommandLine& line) {
 }  // namespace
 
 Command render_command() {
-  return {"", "render", "Render the flight of another mission over the pile of a finished run",
+  return {"", "render", "Render the path of another mission with the pile of a finished run",
           declare_render};
 }
 

@@ -23,6 +23,6 @@ Action declare_run(CommandLine& line) {
 
 }  // namespace
 
-Command run_command() { return {"", "run", "Run a mission to a finished dataset", declare_run}; }
+Command run_command() { return {"", "run", "Run a mission and write its dataset", declare_run}; }
 
 }  // namespace rubble

@@ -25,7 +25,7 @@ Action declare_settle(CommandLine& line) {
 }  // namespace
 
 Command settle_command() {
-  return {"", "settle", "Settle the pile of a mission only", declare_settle};
+  return {"", "settle", "Settle the pile of a mission, without rendering", declare_settle};
 }
 
 }  // namespace rubble

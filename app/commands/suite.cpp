@@ -11,16 +11,16 @@ namespace {
 
 Action declare_suite(CommandLine& line) {
   const auto request = std::make_shared<SuiteRequest>();
-  line.add("suite", request->suite, "The suite, a Lua script").required();
+  line.add("suite", request->suite, "The suite: a Lua script").required().metavar("FILE");
   line.add("--out", request->out, "Output folder")
       .shows_default_text("out/<name of the suite>")
       .metavar("DIR");
   line.add("--junit", request->junit, "Write the results as JUnit XML").metavar("FILE");
   line.add("--against", request->against,
-           "The --out folder of an earlier run: also report the first pixel that differs")
+           "Output folder of an earlier run of the suite; the first pixel that differs is reported")
       .metavar("DIR");
   line.add_flag("--update", request->update, "Store the hashes of this run as golden hashes");
-  line.add("--only", request->only, "Run only the entries of this name").metavar("NAME");
+  line.add("--only", request->only, "Run only the entries with this name").metavar("NAME");
   add_jobs_options(line, request->jobs, request->options);
   return [request] { return run_suite(*request); };
 }
@@ -28,7 +28,7 @@ Action declare_suite(CommandLine& line) {
 }  // namespace
 
 Command suite_command() {
-  return {"", "suite", "Run many missions and compare the results with expected ones, for CI",
+  return {"", "suite", "Run many missions and compare the results with expected ones, for continuous integration",
           declare_suite};
 }
 

@@ -347,7 +347,7 @@ Action declare_verify(CommandLine& line) {
       .metavar("DIR");
   const Option keep =
       line.add("--keep", request->keep, "Keep the new run, in this new folder").metavar("DIR");
-  line.add_flag("--pile-only", request->pile_only, "Settle again, render nothing").excludes(keep);
+  line.add_flag("--pile-only", request->pile_only, "Settle again; render nothing").excludes(keep);
   line.add_flag("--json", request->json, "Print the result as JSON");
   return [request] { return verify_run(*request); };
 }
@@ -355,7 +355,7 @@ Action declare_verify(CommandLine& line) {
 }  // namespace
 
 Command verify_command() {
-  return {"", "verify", "Run again from the manifest, and compare every hash", declare_verify};
+  return {"", "verify", "Repeat a run from its manifest and compare every hash", declare_verify};
 }
 
 }  // namespace rubble

@@ -172,7 +172,7 @@ Action declare_voids(CommandLine& line) {
   add_quiet_option(line, of->options.quiet);
   add_space_options(line, request->space);
   line.add("--surfaces", request->surfaces,
-           "Number of voids of each radius whose surfaces are written, largest first")
+           "Number of voids for each radius whose surfaces are written, largest first")
       .shows_default()
       .between(0, 100000);
   line.add("--out", request->out, "Output folder")
@@ -185,7 +185,7 @@ Action declare_voids(CommandLine& line) {
 }  // namespace
 
 Command voids_command() {
-  return {"", "voids", "Map the voids of a run's pile: entrances, volumes, widest paths",
+  return {"", "voids", "Map the voids of the pile of a run: entrances, volumes, widest paths",
           declare_voids};
 }
 

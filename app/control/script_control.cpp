@@ -104,7 +104,7 @@ RobotController ScriptControl::controller_of(std::size_t robot, const RobotModel
     Wish wish;
     std::vector<Diagnostic> mistakes;
     if (answer.kind != Value::Kind::table) {
-      mistakes.push_back({"", 0, "", "what the function returns cannot be followed",
+      mistakes.push_back({"", 0, "", "the function returned no valid commands",
                           "a table such as { linear = 0.3, angular = 0 }", describe(answer), ""});
     } else {
       read_table(wish_schema(wish), answer, mistakes);

@@ -75,7 +75,7 @@ void refuse_several_cameras(const ResolvedMission& mission) {
 void enter_robots(const DriveRequest& request, const ResolvedMission& mission, RunContext& run, DriveWorld& world) {
   if (request.record)
     throw InputError({"", 0, "--record", "nothing is recorded while a robot is driven", "", "",
-                      "`rubble run` on the mission that the drive leaves records all of it"});
+                      "run the mission of the drive with `rubble run`; it records everything"});
   world.mission = std::make_unique<ResolvedMission>(mission);
   world.robots = with_lines_of_script(mission, [&] {
     return std::make_unique<RobotDrive>(*world.mission, world.pile, request.robot, run);
@@ -91,7 +91,7 @@ void adapt(Scenario& scenario, const DriveRequest& request, const AssetLibrary& 
   double& rate = scenario.trajectory.rate_hz;
   if (rate < kLeastRate || rate > kMostRate) rate = TrajectorySpec{}.rate_hz;
   for (const std::string& off : adapt_to_driving(scenario))
-    print_err("drive: without %s, which needs the way ahead\n", off.c_str());
+    print_err("drive: without %s, which needs the future path\n", off.c_str());
 }
 
 }  // namespace

@@ -45,10 +45,14 @@ RawlogOptions rawlog_options(In in) {
   return options;
 }
 
-ContactSheetOptions sheet_options(int frames, const std::string& title) {
+ContactSheetOptions sheet_options(In in) {
   ContactSheetOptions sheet;
-  sheet.total_frames = frames;
-  sheet.title = title;
+  sheet.total_frames = in.frames.at(0);
+  sheet.title = in.title;
+  if (!in.recording.lidars.empty()) {
+    sheet.lidar = in.recording.lidars.front().name;
+    sheet.columns = 2;  // three pictures beside each other are wide
+  }
   return sheet;
 }
 
@@ -112,7 +116,7 @@ const std::vector<RecordingFormat> kFormats{
      [](Size s) { return size_of_scans(s.flight, kPictureOverhead, 16); }},
     {"preview", "preview.png", false, &OutputScenario::preview,
      [](Path p, In in) -> Made {
-       return make_contact_sheet_recorder(p, sheet_options(in.frames.at(0), in.title));
+       return make_contact_sheet_recorder(p, sheet_options(in));
      },
      [](Size) { return kPreviewBytes; }, true},
 };

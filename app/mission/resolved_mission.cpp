@@ -61,7 +61,7 @@ void check_program(const Json& json, const std::string& file) {
     if (!began.contains(name) || began[name] != value)
       throw InputError({file, 0, name, "another program began this run",
                         began.contains(name) ? began[name].dump() : "", value.dump(),
-                        "continue with that one, or begin anew: `rubble run ... --force`"});
+                        "continue with that program, or start again: `rubble run ... --force`"});
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "app/fines/seen_fines.h"
+#include "app/provenance/earlier_files.h"
 #include "app/scene/build_scene.h"
 #include "app/surroundings/seen_surroundings.h"
 #include "io/recording/one_camera.h"
@@ -69,16 +70,10 @@ std::string frame_of(const Carrier& ride, const Scenario& scenario, const std::v
   return "";
 }
 
-// What a run that was killed had finished is made anew: files are replaced, folders must go.
-void remove_folder(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) remove_output_folder(path);
-}
-
 // Of the formats that hold one camera: into cameras/NAME/.
 void add_recorders_of_cameras(const RecordingInputs& inputs, const std::string& folder,
                               RecorderSet& set) {
-  remove_folder(folder + "/" + kCamerasFolder);
+  remove_folder_of_killed_run(folder + "/" + kCamerasFolder);
   for (std::size_t i = 0; i < inputs.recording.cameras.size(); ++i) {
     const Recording alone = inputs.recording.of_camera(i);
     const std::string own = folder + "/" + kCamerasFolder + "/" + alone.cameras.front().name;
@@ -136,7 +131,7 @@ RecorderSet make_recorders(const RecordingInputs& inputs, const std::string& fol
   for (const RecordingFormat& format : recording_formats()) {
     if (!(inputs.scenario.outputs.*format.wanted) || (several && format.one_camera)) continue;
     const std::string path = folder + "/" + format.leaves;
-    remove_folder(path);
+    remove_folder_of_killed_run(path);
     set.names.push_back(format.leaves);
     set.recorders.push_back(format.make(path, inputs));
   }

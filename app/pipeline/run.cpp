@@ -176,7 +176,7 @@ ExitCode complete(const ResolvedMission& mission, RunFolder& folder, RunContext&
     results = run_stages(mission, folder, context, mission.provenance.kind != RunKind::settle);
     write_manifest(mission, results.pile, results.metrics, results.frames, folder, context);
   } catch (const RunError& error) {
-    throw RunError(error.what() + std::string("\nwhat is finished is kept: `rubble resume ") +
+    throw RunError(error.what() + std::string("\nfinished work is kept: `rubble resume ") +
                    folder.path() + "` continues");
   }
   for (const std::string& warning : context.warnings)

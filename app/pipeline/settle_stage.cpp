@@ -5,6 +5,7 @@
 
 #include "app/fines/lay_fines.h"
 #include "app/pipeline/stages.h"
+#include "app/provenance/earlier_files.h"
 #include "app/scene/build_scene.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
@@ -281,6 +282,9 @@ void write_pile_files(const ResolvedMission& mission, const SettledPile& pile, R
   context.progress.start("export");
   PileModel model = build_pile_model(mission.assets, pile.state);
   model.gravity = mission.pile_scenario.settle.gravity;
+  for (const MeshFormat& format : mesh_formats())
+    if (format.is_folder && std::find(formats.begin(), formats.end(), format.name) != formats.end())
+      remove_folder_of_killed_run(folder.file(format.leaves.back()));
   for (const std::string& format : formats)
     for (const std::string& name : export_pile(model, format, folder.path())) folder.add(name);
   if (outputs.track) {

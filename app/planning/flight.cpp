@@ -27,7 +27,7 @@ Json json_of(const Waypoint& w, double t) {
   throw InputError({"", 0, inertial ? "imu.on" : "trajectory.smoothing",
                     "the path cannot be smoothed within the available clearance",
                     "clearance to round its corners", "none",
-                    inertial ? "an inertial measurement unit needs a path without corners: fly slower, make "
+                    inertial ? "an IMU needs a path without corners: fly slower, make "
                                "trajectory.radius smaller, use plan = \"avoid\", or switch the unit off"
                              : "fly slower, or smooth less"});
 }

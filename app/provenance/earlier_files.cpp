@@ -10,6 +10,7 @@
 #include "io/base/remove_files.h"
 #include "io/mesh/pile_export.h"
 #include "kernel/base/error.h"
+#include "kernel/base/system/output_files.h"
 #include "kernel/base/text.h"
 
 namespace rubble {
@@ -123,13 +124,18 @@ void remove_unfinished(const std::string& folder) {
   remove_empty_parents(folder, lock);
 }
 
+void remove_folder_of_killed_run(const std::string& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) remove_output_folder(path);
+}
+
 void refuse_foreign_recordings(const std::string& folder) {
   for (const std::string& name : recording_folders()) {
     std::error_code failed;
     const fs::path path = fs::path(folder) / name;
     if (!fs::exists(fs::symlink_status(path, failed))) continue;
     const std::vector<std::string> files = list_plain_files(folder, name);
-    throw InputError({path.string(), 0, "", "holds what the earlier run did not write", "",
+    throw InputError({path.string(), 0, "", "has files that the earlier run did not write", "",
                       files.empty() ? "" : files.front(), "move it elsewhere"});
   }
 }

@@ -25,6 +25,9 @@ void remove_unfinished(const std::string& folder);
 // Names in the folder, sorted.
 std::vector<std::string> find_derived_files(const std::string& folder);
 
+// What a run that was killed had finished is made anew: files are replaced, folders must go.
+void remove_folder_of_killed_run(const std::string& path);
+
 // Throws InputError when a folder that recordings are written into holds files which the earlier run
 // did not write: to write there, they would have to go.
 void refuse_foreign_recordings(const std::string& folder);

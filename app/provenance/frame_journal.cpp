@@ -20,7 +20,7 @@ void FrameJournal::note(std::size_t index, const std::vector<std::uint64_t>& has
   if (lines_[index] == line) return;
   throw RunError("frame " + std::to_string(index) +
                  " is not the one that was rendered before the run was interrupted: has the "
-                 "graphics driver changed? Begin anew with --force");
+                 "graphics driver changed? Start again with --force");
 }
 
 }  // namespace rubble

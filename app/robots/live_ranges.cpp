@@ -18,8 +18,8 @@ DepthRays make_depth_rays(const MountedCamera& camera, const std::string& key) {
   const Intrinsics k = camera.camera.intrinsics();
   const bool straight = std::all_of(k.distortion.begin(), k.distortion.end(), [](double d) { return d == 0; });
   if (camera.camera.lens.model == LensKind::fisheye || !straight)
-    throw InputError({"", 0, key + ".lens", "a function can be told of no such camera",
-                      "a pinhole", "a lens with distortion", "a camera of its own, without `lens`, can be sensed"});
+    throw InputError({"", 0, key + ".lens", "a controller cannot use this camera",
+                      "a pinhole", "a lens with distortion", "add a second camera without `lens` for the controller"});
   return DepthRays(k, kFarthestDepth);
 }
 

@@ -85,16 +85,18 @@ Vec3 find_principal(Mat3 m, Mat3& axes) {
 }
 
 // The second moments of the mass, trace(I) / 2 - I, cannot be below 0: rounding and programs for drawing make such
-// moments. Where some are, they become small ones of their body's size, which changes the inertia least. False: nothing
-// was to do, or the moments themselves are not above 0.
+// moments; masses in points of one line have none about it. Where some are below or 0, they become small ones of their
+// body's size, which changes the inertia least. False: nothing was to do, or moments themselves are below 0.
 bool repair(Mat3& inertia) {
   constexpr double kLeastShare = 1e-3;  // of the largest second moment
+  constexpr double kRounding = 1e-9;    // of the largest moment
   Mat3 axes;
   const Vec3 moments = find_principal(inertia, axes);
   const double half = (moments.x + moments.y + moments.z) / 2;
   Vec3 second{half - moments.x, half - moments.y, half - moments.z};
   const double least = kLeastShare * std::max({second.x, second.y, second.z});
-  if (std::min({moments.x, moments.y, moments.z}) <= 0 || std::min({second.x, second.y, second.z}) > 0) return false;
+  const double largest = std::max({moments.x, moments.y, moments.z}), smallest = std::min({moments.x, moments.y, moments.z});
+  if (smallest < -kRounding * largest || std::min({second.x, second.y, second.z}) > 0) return false;
   second = max(second, Vec3{least, least, least});
   const Vec3 better{second.y + second.z, second.z + second.x, second.x + second.y};
   inertia = axes * Mat3::diagonal(better) * axes.transposed();
@@ -120,12 +122,12 @@ class Masses {
     if (!std::isfinite(body.mass) || body.mass < 0)
       return mistakes_.push_back({file_.path, line, body.name, "its mass is no number", "more than 0 kg",
                                   std::to_string(body.mass), ""});
-    const bool stands = number == 0 && file_.fixed;  // then they say nothing
+    const bool stands = number == 0 && file_.fixed;  // its mass counts in sums alone
     if (body.mass == 0)  // also with moments alone
       infer_mass(line, stands, body);
     else if (is_nothing(body.inertia, body.mass))
-      infer_inertia(line, stands, body);
-    else if (repair(body.inertia) && !stands)
+      infer_inertia(line, body);
+    else if (repair(body.inertia))
       warn(line, "no body has the moments of inertia of `" + body.name + "`: one of them is above the sum of the others. They "
                  "are changed as little as makes them possible");
     check(line, body);
@@ -171,13 +173,12 @@ class Masses {
     } else {
       body.mass = kLeastMass, body.inertia = inertia_of_ball(kLeastMass, kLeastRadius);
     }
-    if (stands) return;
-    warn(line, "the link `" + body.name + "` moves and has no mass: it gets " + text_of("%.3g kg", body.mass) +
+    warn(line, "the link `" + body.name + "` " + (stands ? "" : "moves and ") + "has no mass: it gets " + text_of("%.3g kg", body.mass) +
                    (body.mass > kLeastMass ? ", that of its shape in water" : ", as it has no shape either") +
                    "; <inertial> gives it one");
   }
 
-  void infer_inertia(int line, bool stands, RobotLink& body) {
+  void infer_inertia(int line, RobotLink& body) {
     RobotLink solid = solid_of(body);
     if (volume_of(solid) > 0) {
       set_mass(body.mass, solid);
@@ -185,7 +186,7 @@ class Masses {
     } else {
       body.inertia = inertia_of_ball(body.mass, kLeastRadius);
     }
-    if (!stands) warn(line, "the link `" + body.name + "` has no moments of inertia: it gets those of its shape");
+    warn(line, "the link `" + body.name + "` has no moments of inertia: it gets those of its shape");
   }
 
   void check(int line, const RobotLink& body) {

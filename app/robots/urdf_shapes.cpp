@@ -37,6 +37,15 @@ ConvexPart make_cylinder(double radius, double length) {
   return part;
 }
 
+// A robot has dozens of links, each with its mesh: fewer parts and a coarser measure than for an asset, which may be a
+// thousand pieces of a pile. Other programs take one hull for a link.
+DecomposeOptions link_options() {
+  DecomposeOptions options;
+  options.max_parts = 8, options.most_parts = 12;
+  options.resolution = 48;
+  return options;
+}
+
 // A scale that mirrors turns triangles inside out: they are turned back.
 void turn_triangles(TriangleMesh& mesh) {
   for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
@@ -115,7 +124,7 @@ std::vector<ConvexPart> make_urdf_parts(const UrdfGeometry& g, MeshImporter& imp
     case UrdfGeometry::Kind::mesh:
       break;
   }
-  return decompose_cached(load_scaled(g, importer, warnings), DiskCache(DiskCache::usual_folder())).parts;
+  return decompose_cached(load_scaled(g, importer, warnings), DiskCache(DiskCache::usual_folder()), link_options()).parts;
 }
 
 void add_urdf_looks(const UrdfGeometry& g, const Pose& body_from_link, RobotModel& model, std::size_t body,

@@ -24,7 +24,7 @@ std::vector<std::string> names_of(const SearchBenchRequest& request) {
     names.push_back(name);
   }
   if (names.empty())
-    throw InputError({"", 0, "--agent", "nobody searches", "--agent COMMAND or --baseline NAME", "neither", ""});
+    throw InputError({"", 0, "--agent", "no agent is given", "--agent COMMAND or --baseline NAME", "neither", ""});
   return names;
 }
 
@@ -46,7 +46,7 @@ std::unique_ptr<SearchAgent> make_agent(const SearchBenchRequest& request, const
 
 void expect_victims(const ResolvedMission& mission, const std::string& script) {
   if (mission.scenario.victims.count == 0)
-    throw InputError({script, 0, "victims.count", "nobody to search for", "1 or more", "0",
+    throw InputError({script, 0, "victims.count", "there are no victims", "1 or more", "0",
                       "victims = { count = 4 } in the mission, or --set victims.count=4"});
 }
 

@@ -92,7 +92,7 @@ void SearchWorld::find_targets(const PileState& pile) {
     targets_.push_back(target);
   }
   if (targets_.empty())
-    throw InputError({"", 0, "victims.count", "nobody to search for", "1 or more", "0",
+    throw InputError({"", 0, "victims.count", "there are no victims", "1 or more", "0",
                       "victims = { count = 4 } in the mission, or --set victims.count=4"});
 }
 

@@ -75,7 +75,7 @@ pid_t start(const Job& job) {
   std::error_code failed;
   const std::string program = std::filesystem::read_symlink("/proc/self/exe", failed).string();
   if (failed) {
-    throw RunError("cannot start jobs: /proc/self/exe does not say where this program lies (" + failed.message() +
+    throw RunError("cannot start jobs: /proc/self/exe does not give the folder of this program (" + failed.message() +
                    "): mount /proc");
   }
   std::vector<char*> arguments{const_cast<char*>(program.c_str())};

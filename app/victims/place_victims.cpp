@@ -71,7 +71,7 @@ class Placer {
       drop_unreachable();
       if (count() == victims_.count) return;
     }
-    throw InputError({"", 0, "victims.count", "the voids have no room for so many",
+    throw InputError({"", 0, "victims.count", "the voids cannot hold so many victims",
                       "at most " + std::to_string(count()) + " in this pile", std::to_string(victims_.count),
                       "another seed, difficulty or radius, or a pile with larger voids (rubble.collapse)"});
   }

@@ -114,8 +114,9 @@ DataPicture decode_data_picture(std::string_view bytes) {
   if (kind == "JPEG") return data_from_jpeg(bytes);
   if (kind == "TIFF") return decode_tiff_data(bytes);
   if (kind == "PGM") return data_from_pgm(bytes);
-  throw RunError(kind.empty() ? "is no picture; PNG, JPEG, TIFF and PGM are read"
-                              : "is a " + kind + " picture; PNG, JPEG, TIFF and PGM are read");
+  if (kind == "OpenEXR") return decode_exr_data(bytes);
+  throw RunError(kind.empty() ? "is no picture; PNG, JPEG, TIFF, PGM and OpenEXR are read"
+                              : "is a " + kind + " picture; PNG, JPEG, TIFF, PGM and OpenEXR are read");
 }
 
 }  // namespace rubble

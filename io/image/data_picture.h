@@ -27,16 +27,19 @@ struct DataPicture {
 
 inline constexpr std::uint64_t kMostDataPixels = 64'000'000;  // of a picture that is read
 
-// "PNG", "JPEG", "TIFF", "PGM"; also kinds that are not read: "BMP", "GIF", "WebP", "JPEG 2000",
-// "OpenEXR" and others. Empty: it is no picture that is known.
+// "PNG", "JPEG", "TIFF", "PGM", "OpenEXR"; also kinds that are not read: "BMP", "GIF", "WebP", "JPEG 2000"
+// and others. Empty: it is no picture that is known.
 std::string picture_kind(std::string_view bytes);
 
-// PNG (8 and 16 bits), JPEG, TIFF (integers and floats of one or three channels) and PGM. Of colours the
+// PNG (8 and 16 bits), JPEG, TIFF (integers and floats of one or three channels), PGM and OpenEXR (as exr_file.cpp
+// chooses channels). Of colours the
 // brightness: 0.2126 R + 0.7152 G + 0.0722 B of the stored values. Transparent pixels are black. Throws
-// RunError that says why it cannot be: "is a BMP picture; PNG, JPEG, TIFF and PGM are read".
+// RunError that says why it cannot be: "is a BMP picture; PNG, JPEG, TIFF, PGM and OpenEXR are read".
 DataPicture decode_data_picture(std::string_view bytes);
 
 // Of a TIFF, in a child process (kernel/base/system/isolated_worker.h). Throws RunError.
 DataPicture decode_tiff_data(std::string_view bytes);
+// Of an OpenEXR, likewise. Its values are real numbers.
+DataPicture decode_exr_data(std::string_view bytes);
 
 }  // namespace rubble

@@ -8,8 +8,12 @@
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 
+#include <algorithm>
 #include <exception>
+#include <stdexcept>
+#include <utility>
 
+#include "io/image/data_picture.h"
 #include "io/image/isolated_picture.h"
 #include "kernel/base/error.h"
 #include "kernel/base/read_file.h"
@@ -100,7 +104,91 @@ ExrImage import_exr(const std::string& path, const std::vector<std::string>& cha
   }
 }
 
+class BytesStream : public Imf::IStream {
+ public:
+  explicit BytesStream(std::string_view bytes) : Imf::IStream("picture"), bytes_(bytes) {}
+
+  bool read(char data[], int size) override {
+    const auto count = static_cast<std::size_t>(size);
+    if (position_ > bytes_.size() || count > bytes_.size() - position_) throw std::runtime_error("the file ends too early");
+    std::copy_n(bytes_.data() + position_, count, data);
+    position_ += count;
+    return position_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return position_; }
+  void seekg(std::uint64_t position) override { position_ = position; }
+
+ private:
+  std::string_view bytes_;
+  std::size_t position_ = 0;
+};
+
+// The channels whose values are the picture's: Y, the only one, or R, G and B.
+std::vector<std::string> choose_data_channels(const Imf::ChannelList& channels) {
+  if (channels.findChannel("Y")) return {"Y"};
+  std::vector<std::string> names;
+  std::string all;
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+    names.emplace_back(channel.name());
+    all += (all.empty() ? "" : ", ") + names.back();
+  }
+  if (names.size() == 1) return names;
+  if (channels.findChannel("R") && channels.findChannel("G") && channels.findChannel("B")) return {"R", "G", "B"};
+  throw std::runtime_error("expected a channel Y, one channel, or R, G and B, found " + all);
+}
+
+// Interleaved values of those channels.
+struct ExrData {
+  int width = 0, height = 0;
+  std::vector<float> values;
+};
+
+ExrData import_exr_data(std::string_view bytes) {
+  try {
+    BytesStream stream(bytes);
+    Imf::InputFile file(stream, 0);
+    const auto window = file.header().dataWindow();
+    const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1, height = std::int64_t(window.max.y) - window.min.y + 1;
+    if (width < 1 || height < 1 || width > std::int64_t(kMostDataPixels) || height > std::int64_t(kMostDataPixels) / width)
+      throw std::runtime_error("it has more than 64 million pixels");
+    ExrData data{int(width), int(height), {}};
+    const auto count = std::size_t(width * height);
+    const std::vector<std::string> channels = choose_data_channels(file.header().channels());
+    data.values.resize(channels.size() * count);
+    Imf::FrameBuffer pixels;
+    const std::size_t step = channels.size() * sizeof(float);
+    for (std::size_t c = 0; c < channels.size(); ++c)
+      pixels.insert(channels[c], Imf::Slice::Make(Imf::FLOAT, data.values.data() + c, window, step, step * std::size_t(data.width)));
+    file.setFrameBuffer(pixels);
+    file.readPixels(window.min.y, window.max.y);
+    return data;
+  } catch (const std::exception& error) {
+    throw InputError({"", 0, "", std::string("is a damaged OpenEXR picture, or one that is not read: ") + error.what(), "", "", ""});
+  }
+}
+
 }  // namespace
+
+DataPicture decode_exr_data(std::string_view bytes) {
+  ExrData data;
+  try {
+    data = read_isolated_picture("the picture", &ExrData::values, [&] { return import_exr_data(bytes); });
+  } catch (const InputError& error) {
+    throw RunError(error.diagnostics().front().message);
+  }
+  DataPicture out;
+  out.width = data.width, out.height = data.height;
+  if (data.values.size() == std::size_t(data.width) * std::size_t(data.height)) {
+    out.values = std::move(data.values);
+    return out;
+  }
+  for (std::size_t i = 0; i + 2 < data.values.size(); i += 3) {
+    const float r = data.values[i], g = data.values[i + 1], b = data.values[i + 2];
+    out.values.push_back(r == g && g == b ? r : 0.2126f * r + 0.7152f * g + 0.0722f * b);
+    out.colour = out.colour || !(r == g && g == b);
+  }
+  return out;
+}
 
 ExrImage read_exr(const std::string& path, const std::vector<std::string>& channels) {
   return read_isolated_picture(path, &ExrImage::values, [&] { return import_exr(path, channels); });

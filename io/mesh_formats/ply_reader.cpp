@@ -69,7 +69,20 @@ class PlyFile {
 
   std::uint64_t left() const { return rest_.size(); }  // unit: byte
 
+  // Text has a line for each item: what a line has beyond its properties is no part of the next item. Text with fewer lines
+  // than items is one list of numbers.
+  void begin_items(std::uint64_t count) {
+    const std::uint64_t ends = std::uint64_t(std::count(rest_.begin(), rest_.end(), '\n'));
+    has_lines_ = !binary && ends + (rest_.empty() || rest_.back() == '\n' ? 0 : 1) >= count;
+  }
+  void end_item() {
+    if (!has_lines_ || word_ >= words_.size()) return;
+    words_.clear(), word_ = 0;
+    has_more_words = true;
+  }
+
   bool binary = false, big_endian = false, in_header = true;
+  bool has_more_words = false;  // a line had more numbers than its item has properties
 
  private:
   template <typename T>
@@ -115,6 +128,7 @@ class PlyFile {
   int line_ = 0;
   std::vector<std::string> words_;
   std::size_t word_ = 0;
+  bool has_lines_ = false;
 };
 
 bool is_type(const std::string& type) {
@@ -221,6 +235,7 @@ void read_vertices(PlyFile& file, const Element& element, PlyMesh& mesh) {
         values[property.slot] = value / property.largest;
       }
     }
+    file.end_item();
     const auto vector = [&values](int at) { return Vec3(values[at], values[at + 1], values[at + 2]); };
     mesh.positions.push_back(vector(kPlace));
     if (normals) mesh.normals.push_back(Vec3f(vector(kNormal)));
@@ -301,6 +316,7 @@ void read_items(PlyFile& file, const Element& element, PlyMesh& mesh) {
   if (element.count > file.left())
     file.refuse("the file ends early", std::to_string(element.count) + " of " + element.name,
                 std::to_string(file.left()) + " bytes");
+  file.begin_items(element.count);
   if (element.name == "vertex") return read_vertices(file, element, mesh);
   if (element.name == "face") note_of_faces(element, mesh);
   if (element.name == "edge" && element.count > 0) mesh.notes.push_back("lines beside its faces are left out");
@@ -309,6 +325,7 @@ void read_items(PlyFile& file, const Element& element, PlyMesh& mesh) {
       read_face(file, element, mesh);
     else
       pass_over(file, element);
+    file.end_item();
   }
 }
 
@@ -330,6 +347,7 @@ PlyMesh load_ply(const std::string& path) {
     read_items(file, element, mesh);
   }
   if (mesh.positions.empty()) file.refuse("holds no vertex", "points or a mesh", "none");
+  if (file.has_more_words) mesh.notes.push_back("numbers beyond the properties of its header are left out");
   return mesh;
 }
 

@@ -136,6 +136,10 @@ class ThreemfReader {
       if (name == "base") add_material(group, xml.attribute("displaycolor"), xml.attribute("name"));
       if (name == "color") add_material(group, xml.attribute("color"), "");
       if (name == "texture2dgroup") scene_.note("images of 3MF files are not drawn");
+      if (name == "compositematerials" || name == "multiproperties")
+        scene_.note("the mixed colours of its <" + std::string(name) + "> are not drawn");
+      if (name.size() > 17 && name.substr(name.size() - 17) == "displayproperties")
+        scene_.note("its <" + std::string(name) + ">, which say how surfaces shine, are left out");
       if (name == "beamlattice" || name == "slicestack") scene_.note("the <" + printable(xml.name()) + "> is left out: its triangles are read");
       if (name == "object") {
         object = &objects_[part + "#" + xml.attribute("id")];
@@ -172,23 +176,34 @@ class ThreemfReader {
     const std::string pid = xml.attribute("pid"), first = xml.attribute("p1");
     const auto own = materials_.find((pid.empty() ? group : part + "#" + pid) + "#" + (first.empty() ? index : first));
     object.materials.push_back(own == materials_.end() ? -1 : own->second);
+    for (const auto& [attribute, value] : xml.attributes()) {
+      const std::string_view name = attribute;
+      if (name == "paint_color" || (name.size() > 17 && name.substr(name.size() - 17) == ":mmu_segmentation"))
+        scene_.note("colours that a slicer painted on triangles are not drawn");
+    }
     for (const char* other : {"p2", "p3"})
       if (!xml.attribute(other).empty() && xml.attribute(other) != first) scene_.note("colours that vary over a triangle are drawn as that of its first corner");
+  }
+
+  static bool is_colour(const std::string& text) {
+    return (text.size() == 7 || text.size() == 9) && text[0] == '#' &&
+           text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
   }
 
   // "#RRGGBB" or "#RRGGBBAA", sRGB.
   void add_material(const std::string& group, const std::string& colour, const std::string& name) {
     const int number = counts_[group]++;
     ImportedMaterial material;
+    if (!is_colour(colour)) scene_.note("the colour \"" + printable(colour) + "\" is none: expected #RRGGBB or #RRGGBBAA");
     material.name = name.empty() ? colour : name;
     const auto byte = [&colour](std::size_t at) {
       const std::size_t high = std::string("0123456789abcdef").find(char(std::tolower(colour[at]))),
                         low = std::string("0123456789abcdef").find(char(std::tolower(colour[at + 1])));
-      return high > 15 || low > 15 ? 255.0 : double(high * 16 + low);
+      return double(high * 16 + low);
     };
-    if (colour.size() >= 7)
+    if (is_colour(colour))
       for (int i = 0; i < 3; ++i) material.colour[i] = float(linear_from_srgb(byte(1 + 2 * std::size_t(i)) / 255));
-    if (colour.size() >= 9) material.opacity = float(byte(7) / 255);
+    if (is_colour(colour) && colour.size() == 9) material.opacity = float(byte(7) / 255);
     materials_[group + "#" + std::to_string(number)] = int(scene_.materials.size());
     scene_.materials.push_back(std::move(material));
   }

@@ -8,6 +8,7 @@
 #include "io/base/atomic_file.h"
 #include "io/image/image_file.h"
 #include "io/image/lettering.h"
+#include "io/image/scan_plan.h"
 #include "io/recording/frame_order.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
@@ -23,6 +24,7 @@ struct Tile {
   std::int64_t stamp_ns = 0;
   cv::Mat colour;            // CV_8UC3, B G R
   std::vector<float> depth;  // as large; unit: m; NaN: no return
+  ScanPlan::Moment scans;    // of the LiDAR, if there is one
 };
 
 // The mean over the source pixels under each pixel of the tile, in integers.
@@ -104,7 +106,12 @@ class ContactSheetRecorder : public Recorder {
     const int height =
         std::max(1, options_.tile * frame.intrinsics.height / frame.intrinsics.width);
     tiles_.push_back({frame.index, frame.stamp_ns, shrink_colour(frame, options_.tile, height),
-                      sample_depth(frame, options_.tile, height)});
+                      sample_depth(frame, options_.tile, height), {}});
+    if (has_lidar()) tiles_.back().scans = plan_.now();
+  }
+
+  void write_lidar(const LidarScan& scan) override {
+    if (has_lidar() && scan.sensor == 0) plan_.add(scan);
   }
 
   void finish() override {
@@ -112,6 +119,9 @@ class ContactSheetRecorder : public Recorder {
       throw RunError(file_.path() + ": " + std::to_string(options_.total_frames) +
                      " frames were announced and " + std::to_string(order_.count()) + " came");
     }
+    std::vector<const ScanPlan::Moment*> moments;
+    for (const Tile& tile : tiles_) moments.push_back(&tile.scans);
+    plan_.frame(moments);
     cv::Mat rgb;
     cv::cvtColor(draw_sheet(), rgb, cv::COLOR_BGR2RGB);
     file_.write(encode_png(RgbImage{rgb.cols, rgb.rows, {rgb.datastart, rgb.dataend}}, 6));
@@ -119,6 +129,8 @@ class ContactSheetRecorder : public Recorder {
   }
 
  private:
+  bool has_lidar() const { return !options_.lidar.empty(); }
+
   // From the 1st to the 99th percentile of what is shown, and at least from 1 to 1.5.
   DepthScale calc_scale() const {
     std::vector<float> depths;
@@ -153,7 +165,8 @@ class ContactSheetRecorder : public Recorder {
     const int columns = std::max(1, std::min<int>(options_.columns, int(tiles_.size())));
     const int rows = (int(tiles_.size()) + columns - 1) / columns;
     const int tile_height = tiles_.empty() ? 0 : tiles_.front().colour.rows;
-    const int pair_width = 2 * options_.tile + kGap, pair_height = tile_height + kCaption;
+    const int pictures = has_lidar() ? 3 : 2;
+    const int pair_width = pictures * options_.tile + (pictures - 1) * kGap, pair_height = tile_height + kCaption;
     cv::Mat sheet(kTitle + rows * (pair_height + kMargin) + kLegend,
                   kMargin + columns * (pair_width + kMargin), CV_8UC3, kPaper);
     put_label(sheet, options_.title, {kMargin, 34}, 0.75, kInk);
@@ -175,6 +188,11 @@ class ContactSheetRecorder : public Recorder {
     const int baseline = at.y + size.height + 18;
     put_label(sheet, "frame " + std::to_string(tile.index), {at.x, baseline}, 0.45, kInk);
     put_label(sheet, "t = " + decimal(seconds, 2) + " s", {at.x + 100, baseline}, 0.45, kFaint);
+    if (!has_lidar()) return;
+    const int left = at.x + 2 * (size.width + kGap);
+    plan_.draw(tile.scans, size).copyTo(sheet(cv::Rect({left, at.y}, size)));
+    put_label(sheet, options_.lidar + " from above, " + plan_.bar(size), {left, baseline}, 0.45, kInk);
+    put_label(sheet, "z " + plan_.heights(), {left + size.width - 120, baseline}, 0.45, kFaint);
   }
 
   // A bar from near to far with lengths of 1, 2 and 5 below, and what grey means beside it.
@@ -211,6 +229,7 @@ class ContactSheetRecorder : public Recorder {
   ContactSheetOptions options_;
   std::vector<int> chosen_;  // frame numbers, ascending
   std::vector<Tile> tiles_;
+  ScanPlan plan_;
 };
 
 void check_range(const char* name, int value, int low, int high) {

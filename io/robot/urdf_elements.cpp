@@ -129,6 +129,15 @@ Vec3 UrdfElements::vector(const XmlElement& element, const char* attribute, cons
   return otherwise;
 }
 
+Vec3 UrdfElements::scale(const XmlElement& element) {
+  const std::string* text = element.find("scale");
+  const std::vector<double> n = text ? numbers_in(*text) : std::vector<double>{};
+  if (n.size() != 4 || n[3] != 1 || !std::all_of(n.begin(), n.end(), [](double x) { return std::isfinite(x); }))
+    return vector(element, "scale", {1, 1, 1});
+  warn(element.line, "`scale` of <" + element.name + "> has four numbers: the last, 1, is left out");
+  return {n[0], n[1], n[2]};
+}
+
 std::vector<double> UrdfElements::numbers_in(const std::string& text) {
   std::vector<double> numbers;
   for (std::size_t at = 0; at < text.size();) {

@@ -44,6 +44,8 @@ class UrdfElements {
   double number(const XmlElement& element, const char* attribute, double otherwise, bool required = false,
                 bool endless = false);
   Vec3 vector(const XmlElement& element, const char* attribute, const Vec3& otherwise, bool required = false);
+  // Three numbers; a fourth of 1, as of homogeneous coordinates, is left out with a warning.
+  Vec3 scale(const XmlElement& element);
   // As many numbers as there are; empty, and no mistake: one of them is no number.
   static std::vector<double> numbers_in(const std::string& text);
   // Of the child <origin>; without it the identity. unit: m, rad

@@ -200,7 +200,7 @@ class PartReader {
   bool read_mesh(const XmlElement& shape, UrdfGeometry& g) {
     elements_.expect(shape, {"filename", "scale"}, {});
     g.kind = UrdfGeometry::Kind::mesh;
-    g.scale = elements_.vector(shape, "scale", {1, 1, 1});
+    g.scale = elements_.scale(shape);
     if (g.scale.x == 0 || g.scale.y == 0 || g.scale.z == 0)
       elements_.mistake(shape.line, "the scale of its mesh is 0", "three numbers that are not 0", "0");
     const std::string name = elements_.name_of(shape, "filename");

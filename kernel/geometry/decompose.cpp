@@ -82,17 +82,18 @@ Points hull_corners(const Points& points) {
   }
 }
 
-// Empty: the points lie in a line.
+// Empty: the points lie in a line. What is thinner than the hull's lattice or the tolerance of corners tells is flat as well.
 Points make_part(const Points& points, const DecomposeOptions& options) {
-  try {
-    const bool flat = calc_hull_volume(points) <= 0;
-    const Points solid = flat ? thickened(points, options.thinnest) : points;
-    const double tolerance = std::max(kCornerTolerance, kCornerShare * calc_size(solid));
-    return widened(restore_volume(simplify_hull(solid, std::size_t(options.max_corners), tolerance), solid),
-                   options.thinnest);
-  } catch (const std::invalid_argument&) {
-    return {};  // thinner than the hull's lattice tells
+  for (const bool flat : {calc_hull_volume(points) <= 0, true}) {
+    try {
+      const Points solid = flat ? thickened(points, options.thinnest) : points;
+      const double tolerance = std::max(kCornerTolerance, kCornerShare * calc_size(solid));
+      return widened(restore_volume(simplify_hull(solid, std::size_t(options.max_corners), tolerance), solid),
+                     options.thinnest);
+    } catch (const std::invalid_argument&) {
+    }
   }
+  return {};
 }
 
 // What parts may do at most.

@@ -267,7 +267,7 @@ class AccelerogramReader {
     for (const double value : result_.values) result_.peak = std::max(result_.peak, std::abs(value));
     constexpr double kLargestRecorded = 50;  // the largest on record is 43 m/s2 (Iwate, 2008); unit: m/s2
     if (result_.peak > kLargestRecorded)
-      result_.notes.push_back("the peak of " + std::to_string(result_.peak) + " m/s2 is more than was ever recorded: is the unit right?");
+      result_.notes.push_back("the peak of " + std::to_string(result_.peak) + " m/s2 is larger than any recorded one: is the unit right?");
   }
 
   std::string path_;

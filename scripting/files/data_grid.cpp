@@ -124,6 +124,12 @@ DataGrid read_unthinned(std::string_view bytes) {
   }
 }
 
+// Brightness of colours lies between levels. The text that is kept has whole ones.
+void round_levels(DataGrid& grid) {
+  if (grid.metric()) return;
+  for (double& value : grid.values) value = std::floor(value + 0.5);
+}
+
 std::string number_text(double value) { return std::isnan(value) ? "nan" : format_number(value); }
 
 }  // namespace
@@ -135,6 +141,7 @@ DataGrid read_data_grid(std::string_view bytes) {
   if (std::uint64_t(grid.columns) * std::uint64_t(grid.rows) > kMostDataPixels)
     decline_grid("has more than 64 million pixels");
   if (is_esri_grid(bytes) || bytes.substr(0, 2) == "P2") read_grid_comments(bytes, grid);
+  round_levels(grid);
   return grid;
 }
 

@@ -7,9 +7,9 @@ return function(given)
     { "radius", 0.2, min = 0.02, max = 10, unit = "m", doc = "Radius of the sphere." },
     { "rank", 1, type = "integer", min = 1, max = 1000000, doc = "Rank in the order of `by`; 1: the first." },
     { "by", "volume", choices = { "volume", "depth" },
-      doc = "Order of the voids: the largest first, or the one that the sphere enters deepest first." },
+      doc = "Order of the voids: by volume, or by the depth that the sphere reaches; largest first." },
     { "outside_radius", 2, min = 0.2, max = 10, unit = "m",
-      doc = "Outside is the space that a sphere of this radius reaches from the sky; all other free space is void, as for `rubble voids` (docs/explanation/voids.md)." },
+      doc = "Radius of the sphere that defines the outside: the space that it reaches from the sky. All other free space is void (docs/explanation/voids.md)." },
     { "approach", 1, min = 0, max = 100, unit = "m", doc = "Distance of the place `approach` from the entrance." },
   })
   local void = {}

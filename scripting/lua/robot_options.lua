@@ -14,7 +14,7 @@ return function(model, given, list)
     { "lamps", {}, type = "table", doc = "As `robots[].lamps`." },
     { "drive", {}, type = "table", doc = "As `robots[].drive`." },
     { "control", 0, type = "integer", min = 0, max = 1000,
-      doc = "A function of what the robot senses, which returns commands (docs/reference/robots.md)." },
+      doc = "A function that returns commands (docs/reference/robots.md)." },
     { "senses", {}, type = "table", doc = "As `robots[].senses`." },
   }
   local all = {}

@@ -28,7 +28,7 @@ Schema make_pack_schema(PackTable& pack) {
   k.list("assets", list, "One entry per asset.").must();
   item("name", &AssetTable::name, "Name that missions use.").must();
   k.add("assets[].mesh",
-        "Mesh file, or files from the finest to the coarsest level of detail, relative to pack.lua.",
+        "Mesh file, or levels of detail from the finest to the coarsest, relative to pack.lua.",
         [&list](std::size_t i) { return Slot(StringOrList{&list[i].mesh}); });
   k.add("assets[].links",
         "Instead of a mesh: a tree of 2 to 256 other assets of the pack, connected by joints.",
@@ -36,21 +36,22 @@ Schema make_pack_schema(PackTable& pack) {
   k.add("assets[].units", "Length unit of the files.", [&list](std::size_t i) {
     return Schema::choice_slot(list[i].units, {"m", "cm", "mm", "in", "ft"});
   });
-  k.add("assets[].up", "The axis that points up in the files; in Rubble it is Z.",
+  k.add("assets[].up", "The axis that points up in the files.",
         [&list](std::size_t i) {
           return Schema::choice_slot(list[i].up, {"y", "z"});
         });
   k.add("assets[].collision",
-        "`hull`: the convex hull of the mesh; `decompose`: the mesh cut into convex parts; or a file whose "
-        "objects are convex parts.",
+        "`hull`: the convex hull of the mesh. `decompose`: convex parts of the mesh. A file: its objects are convex "
+        "parts.",
         [&list](std::size_t i) {
           return Slot(WordOrFile{{"hull", "decompose"}, &list[i].word, "parts", &list[i].parts});
         });
   item("material", &AssetTable::material, "A name in materials.lua.");
   item("look", &AssetTable::look,
-       "Look of surfaces without a known look; not given: the colours of the file, else the look of the material.");
+       "Look of surfaces without a known look. Not given: the colours of the file, otherwise the look of the "
+       "material.");
   item("looks", &AssetTable::surface_appearance,
-       "Look of each surface, by the name of the surface in the files.");
+       "Look of each surface, by its name in the files.");
   item("density", &AssetTable::density, "Density, instead of that of the material.")
       .between(10, 25000)
       .unit("kg/m3");
@@ -68,7 +69,7 @@ Schema make_pack_schema(PackTable& pack) {
         "Standard deviation of the size (normal) or of its natural logarithm (lognormal).",
         [&list](std::size_t i) { return Slot(&list[i].spread.deviation); })
       .above(0, 10);
-  item("weight", &AssetTable::weight, "How often the asset is drawn, in a mission without `pile.mix`.")
+  item("weight", &AssetTable::weight, "Relative frequency of the asset in a mission without `pile.mix`.")
       .between(0, 1e9);
   item("tags", &AssetTable::tags, "Words that describe the asset.");
   return k;
@@ -101,7 +102,7 @@ Schema make_link_schema(LinkTable& l) {
       .between(0, 1e9)
       .unit("N m s/rad, N s/m");
   k.value("friction", l.friction,
-          "Dry friction: the joint holds up to this load, and resists its motion with this load.")
+          "Dry friction: load up to which the joint holds, and with which it resists motion.")
       .between(0, 1e9)
       .unit("N m, N");
   k.value("yield", l.yield, "Load at which the spring deforms plastically; not given: never.")
@@ -114,13 +115,13 @@ Schema make_link_schema(LinkTable& l) {
       .above(0, 1e12)
       .unit("N m");
   k.value("limit_deg", l.limit_deg,
-          "Range of a hinge, {least, most}, or one number for both directions; for a ball the largest bending angle.")
+          "Range of a hinge: {least, most}, or one number for both directions. Ball: largest bending angle.")
       .between(-360, 360)
       .unit("degree");
-  k.value("travel", l.travel, "Range of a slider, {least, most}, or one number for both directions.")
+  k.value("travel", l.travel, "Range of a slider: {least, most}, or one number for both directions.")
       .between(-100, 100)
       .unit("m");
-  k.value("collide", l.collide, "Whether the link and its parent collide with each other.");
+  k.value("collide", l.collide, "The link and its parent collide with each other.");
   return k;
 }
 

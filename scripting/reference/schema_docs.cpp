@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <stdexcept>
 
 #include "scripting/packs/pack_schema.h"
@@ -36,52 +37,133 @@ std::string cell(std::string text) {
   return text;
 }
 
-std::string row(const Key& key, const std::string& name) {
-  const std::string value =
-      key.required ? "must be given" : as_code(lua_text(read_slot(key.bind(0))));
-  return "| `" + name + "` | " + cell(describe_expected(key)) + " | " + key.unit_text +
-         " | " + cell(value) + " | " + cell(key.doc_text) + " |\n";
+// Texts name pages as the tree does: "docs/reference/lidar.md". The reference links to them.
+std::string linked(const std::string& text) {
+  static const std::string kFolder = "docs/", kEnding = ".md";
+  std::string out;
+  std::size_t from = 0;
+  for (std::size_t at; (at = text.find(kFolder, from)) != std::string::npos;) {
+    const std::size_t end = text.find(kEnding, at), slash = text.rfind('/', end);
+    if (end == std::string::npos) break;
+    const std::string page = text.substr(slash + 1, end + kEnding.size() - slash - 1);
+    const std::string folder = text.substr(at + kFolder.size(), slash + 1 - at - kFolder.size());
+    out += text.substr(from, at - from) + "[" + page + "](" + (folder == "reference/" ? "" : "../" + folder) + page + ")";
+    from = end + kEnding.size();
+  }
+  return out + text.substr(from);
 }
 
-constexpr const char* kHead =
-    "| key | takes | unit | default | meaning |\n| --- | --- | --- | --- | --- |\n";
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + as_code(name);
+  return text;
+}
 
-// The keys of a named table that are not those of a group or a key of the mission itself.
+// The type in a word or two; a test takes every alternative through here.
+struct ShortType {
+  std::string operator()(bool*) const { return "boolean"; }
+  std::string operator()(const Negated&) const { return "boolean"; }
+  std::string operator()(int*) const { return "integer"; }
+  std::string operator()(std::int64_t*) const { return "integer"; }
+  std::string operator()(std::uint64_t*) const { return "integer"; }
+  std::string operator()(double*) const { return "number"; }
+  std::string operator()(std::optional<double>*) const { return "number"; }
+  std::string operator()(std::string*) const { return "string"; }
+  std::string operator()(std::optional<std::string>*) const { return "string"; }
+  std::string operator()(const Choice&) const { return "choice"; }
+  std::string operator()(const WordOrFile&) const { return "choice"; }
+  std::string operator()(Vec3*) const { return "vector"; }
+  std::string operator()(std::optional<Vec3>*) const { return "vector"; }
+  std::string operator()(const PlaceSlot&) const { return "vector or place"; }
+  std::string operator()(NumberPair*) const { return "pair"; }
+  std::string operator()(std::optional<NumberPair>*) const { return "pair"; }
+  std::string operator()(std::vector<std::string>*) const { return "strings"; }
+  std::string operator()(const StringOrList&) const { return "strings"; }
+  std::string operator()(std::vector<double>*) const { return "numbers"; }
+  std::string operator()(Value*) const { return "table"; }
+  std::string operator()(const TableList&) const { return "list"; }
+  std::string operator()(const NamedTables&) const { return "named tables"; }
+  std::string operator()(TextMap*) const { return "named strings"; }
+  std::string operator()(NumberMap*) const { return "named numbers"; }
+};
+
+// "1e6" instead of "1e+06".
+std::string short_number(double value) {
+  std::string text = format_number(value);
+  const std::size_t at = text.find('e');
+  if (at != std::string::npos && text[at + 1] == '+') text.erase(at + 1, 1);
+  if (at != std::string::npos) {
+    const std::size_t zero = at + 1 + (text[at + 1] == '-');
+    if (text[zero] == '0') text.erase(zero, 1);
+  }
+  return text;
+}
+
+// "0..10", ">0..10", ">=0"
+std::string short_range(const Range& range) {
+  const bool low = std::isfinite(range.min), high = std::isfinite(range.max);
+  if (!low && !high) return "";
+  if (!high) return (range.above_min ? ">" : ">=") + short_number(range.min);
+  return (low ? (range.above_min ? ">" : "") + short_number(range.min) : "") + ".." + short_number(range.max);
+}
+
+std::string allowed(const Key& key) {
+  const Slot slot = key.bind(0);
+  if (const auto* choice = std::get_if<Choice>(&slot)) return listed(choice->names);
+  if (const auto* words = std::get_if<WordOrFile>(&slot))
+    return listed(words->words) + ", `{ " + words->key + " = \"FILE\" }`";
+  return short_range(key.range);
+}
+
+std::string row(const Key& key, const std::string& name) {
+  const std::string value = key.required ? "required" : as_code(lua_text(read_slot(key.bind(0))));
+  const std::string type = std::visit(ShortType{}, key.bind(0));
+  return "|`" + name + "`|" + type + (key.unit_text.empty() ? "" : ", " + key.unit_text) + "|" +
+         cell(allowed(key)) + "|" + cell(value) + "|" + cell(linked(key.doc_text)) + "|\n";
+}
+
+constexpr const char* kHead = "|key|type, unit|range|default|meaning|\n|---|---|---|---|---|\n";
+
+std::string table_of_rows(const std::string& rows) { return rows.empty() ? "" : kHead + rows + "\n"; }
+
+std::string heading_of(const std::string& path, const std::string& form, const std::string& doc) {
+  return "### `" + path + "`\n\n" + form + linked(doc) + "\n\n";
+}
+
+// The keys of a named table that `one`, the group for a single one, does not have: "cameras" and "camera".
 std::string named_section(const Schema& mission, const Schema& item, const Key& of) {
+  const std::string one = of.path.substr(0, of.path.size() - 1) + ".";
   std::string rows;
   for (const Key* key : item.children(""))
-    if (key->kind == KeyKind::value && !mission.find("camera." + key->path))
-      rows += row(*key, key->name());
-  return "### `" + of.path + "`, tables by name\n\n" + of.doc_text + "\n\n" + kHead + rows + "\n";
+    if (key->kind == KeyKind::value && !mission.find(one + key->path)) rows += row(*key, key->name());
+  for (const Key& key : item.keys())
+    if (key.parent() == "ride" && !mission.find(one + key.path)) rows += row(key, key.path);
+  return heading_of(of.path, "Tables by name. ", of.doc_text) + table_of_rows(rows);
 }
 
-// One heading and table for a group, then one for each group or list in it.
-std::string section(const Schema& schema, const std::string& pattern, const std::string& heading,
-                    const std::string& doc) {
+// One table for the keys of a group, then one for each group or list in it.
+std::string section(const Schema& schema, const std::string& pattern, const std::string& heading) {
   std::string rows, below;
   for (const Key* key : schema.children(pattern)) {
     if (key->kind == KeyKind::value) {
-      rows += row(*key, key->name());
       const Slot slot = key->bind(0);
       if (const auto* tables = std::get_if<TableList>(&slot)) {
         tables->resize(1);
-        below += section(tables->make_item(0), "", "`" + key->path + "`, a list of tables",
-                         key->doc_text);
-      }
-      if (const auto* tables = std::get_if<NamedTables>(&slot)) {
-        tables->reset({tables->example});
-        below += named_section(schema, tables->make_item(0), *key);
+        below += section(tables->make_item(0), "", heading_of(key->path, "List of tables. ", key->doc_text));
+      } else if (const auto* named = std::get_if<NamedTables>(&slot)) {
+        named->reset({named->example});
+        below += named_section(schema, named->make_item(0), *key);
+      } else {
+        rows += row(*key, key->name());
       }
       continue;
     }
     const bool is_list = key->kind == KeyKind::list;
     if (is_list) key->resize(1);  // so that an item's defaults can be read
     below += section(schema, is_list ? key->path + "[]" : key->path,
-                     "`" + key->path + "`" + (is_list ? ", a list of tables" : ""), key->doc_text);
+                     heading_of(key->path, is_list ? "List of tables. " : "", key->doc_text));
   }
-  std::string text = heading.empty() ? "" : "### " + heading + "\n\n" + doc + "\n\n";
-  if (!rows.empty()) text += kHead + rows + "\n";
-  return text + below;
+  return heading + table_of_rows(rows) + below;
 }
 
 // The comment that a library file begins with, as text: "rubble.collapse.heap: nothing ..." without
@@ -117,13 +199,32 @@ Names parameters_of(const DescribedFunction& function) {
   return names;
 }
 
-// The rows of the parameters that are, or are not, among `names`.
+// "robots" of "As `robots.name`.", where the parameter itself is called name; otherwise "".
+std::string table_it_follows(const Key& key) {
+  const std::string begin = "As `", end = "." + key.path + "`.";
+  const std::string& doc = key.doc_text;
+  if (doc.rfind(begin, 0) != 0 || doc.size() <= begin.size() + end.size()) return "";
+  if (doc.compare(doc.size() - end.size(), end.size(), end) != 0) return "";
+  return doc.substr(begin.size(), doc.size() - begin.size() - end.size());
+}
+
+// The parameters that are, or are not, among `names`. Those that are a key of the mission are only named.
 std::string option_rows(const DescribedFunction& function, const Names& names, bool among) {
   OptionTable table(function.description);
-  std::string rows;
-  for (const Key& key : table.schema().keys())
-    if (key.kind == KeyKind::value && has(names, key.path) == among) rows += row(key, key.path);
-  return rows.empty() ? "" : kHead + rows + "\n";
+  std::string rows, table_name;
+  Names same;
+  for (const Key& key : table.schema().keys()) {
+    if (key.kind != KeyKind::value || has(names, key.path) != among) continue;
+    const std::string follows = table_it_follows(key);
+    if (follows.empty()) {
+      rows += row(key, key.path);
+      continue;
+    }
+    same.push_back(key.path);
+    table_name = follows;
+  }
+  const std::string as = same.empty() ? "" : "As keys of `" + table_name + "`: " + listed(same) + ".\n\n";
+  return as + table_of_rows(rows);
 }
 
 std::string comment_of(const std::string& file_name) {
@@ -135,8 +236,9 @@ std::string comment_of(const std::string& file_name) {
 std::string function_section(const DescribedFunction& function, const Names& common) {
   std::string file = function.name.substr(function.name.find('.') + 1);
   std::replace(file.begin(), file.end(), '.', '/');
-  return "### `" + function.name + "`\n\n" + comment_of(file) + "\n\n" +
-         option_rows(function, common, false);
+  const bool is_mode = file.rfind("collapse/", 0) == 0;
+  const std::string picture = is_mode ? "![](../pictures/" + file + ".png)\n\n" : "";
+  return heading_of(function.name, "", comment_of(file)) + picture + option_rows(function, common, false);
 }
 
 // Every function of a folder; what all those that have `marker` share comes once, at the end.
@@ -165,23 +267,19 @@ std::string folder_sections(const std::string& folder, const std::string& marker
 
 std::string library_reference() {
   std::string text =
-      "## Collapse modes\n\n" +
-      folder_sections("collapse", "debris.layers",
-                      "Common parameters of all modes except `heap`") +
-      "## Densities\n\nHorizontal distributions of pieces, for `pile.spawn_density`. "
-      "`rubble.density.image(file)` takes a picture of the script's folder: white pixels get the "
-      "most pieces, and the upper edge is at +Y.\n\n" +
-      folder_sections("density", "", "") +
-      "## Terrain\n\nTerrain on the ground, for `pile.terrain`. `rubble.terrain.image(file, { length = 40, "
-      "amplitude = 2 })` takes a picture or an elevation model of the script's folder "
-      "([formats.md](formats.md#elevation-models)): black is 0, white is `amplitude`, heights in metres keep their "
-      "scale, and the upper edge is at +Y. `samples` (default 256, at most 900) limits the points a side, `missing` is "
-      "the height of points without one, `smooth` averages neighbours. The other options are those of "
-      "`rubble.terrain.from`. "
-      "A mesh is given as `pile.terrain = { file = \"site.obj\" }`.\n\n" +
-      folder_sections("terrain", "", "") + "## Paths\n\n" +
+      "## Collapse modes\n\nEach mode gives a `pile`: fixed stubs of walls and heavy slabs that settle, then debris that falls on them. The "
+      "pictures are sections; red is the cut.\n\n" +
+      folder_sections("collapse", "debris.layers", "Common parameters of all modes except `heap`") +
+      "## Densities\n\nHorizontal distributions of pieces, for `pile.spawn_density`.\n\n### `rubble.density.image`\n\n" +
+      comment_of("density/image") + "\n\n" + folder_sections("density", "", "") +
+      "## Terrain\n\nTerrain on the ground, for `pile.terrain`. A mesh is given as `pile.terrain = { file = \"site.obj\" }`.\n\n" +
+      folder_sections("terrain", "", "") + "### `rubble.terrain.image`\n\n" + comment_of("terrain/image") +
+      " `length` is the length along X, `samples` (default 256, at most 900) limits the points a side, `missing` is the "
+      "height of points without one, and `smooth` counts how often neighbours are averaged (" +
+      linked("docs/reference/formats.md") + "). `x`, `y`, `friction` and `look` are those of `rubble.terrain.from`.\n\n## Paths\n\nEach gives a `trajectory`.\n\n" +
       folder_sections("trajectory", "rate_hz", "Common parameters of all paths");
-  text += "## Robots\n\nEach gives an entry of `robots` ([robots.md](robots.md)). `control` may be a function.\n\n" +
+  text += "## Robots\n\nModels give an entry of `robots`. The others are controllers: functions for `control` (" +
+          linked("docs/reference/robots.md") + ").\n\n" +
           folder_sections("robot", "name", "Common parameters of all robots");
   for (const DescribedFunction& function : LuaSandbox::describe_library())
     if (function.name == "rubble.find_void")
@@ -191,12 +289,11 @@ std::string library_reference() {
 
 std::string alias_table(const Schema& schema) {
   std::string text =
-      "### Names of the published simulator\n\nThe parameters of the published Unity simulator "
-      "under its names, at the top level of a mission and in `--set`. The axes are those of Rubble: Z is up.\n\n"
-      "| name | stands for |\n| --- | --- |\n";
+      "### Names of the published simulator\n\nThe parameters of the published Unity simulator keep their names, "
+      "at the top level of a mission and in `--set`. The axes are those of Rubble: Z is up.\n\n"
+      "|name|stands for|\n|---|---|\n";
   for (const Alias& alias : schema.aliases())
-    text +=
-        "| `" + alias.name + "` | " + (alias.negated ? "not " : "") + "`" + alias.path + "` |\n";
+    text += "|`" + alias.name + "`|" + (alias.negated ? "not " : "") + "`" + alias.path + "`|\n";
   return text + "\n";
 }
 
@@ -207,8 +304,8 @@ std::string lua_reference() {
   const Schema mission = make_scenario_schema(scenario);
   PackTable pack_table;
   const Schema pack = make_pack_schema(pack_table);
-  return "\n## Keys of a mission\n\n" + section(mission, "", "", "") + alias_table(mission) +
-         library_reference() + "## Keys of pack.lua\n\n" + section(pack, "", "", "");
+  return "\n## Keys of a mission\n\n" + section(mission, "", "") + alias_table(mission) + library_reference() +
+         "## Keys of pack.lua\n\n" + section(pack, "", "");
 }
 
 std::string with_reference(const std::string& document) {

@@ -66,11 +66,11 @@ void check_camera(const MountedCamera& camera, const std::string& at, const std:
   if (l.model == LensKind::fisheye && (l.p1 != 0 || l.p2 != 0))
     add(at + "lens.p1", "a fisheye has no tangential distortion", "p1 and p2 of 0", "");
   if (c.shutter.motion_blur && c.exposure.mode == ExposureMode::ideal)
-    add(at + "shutter.motion_blur", "an ideal image takes no time",
+    add(at + "shutter.motion_blur", "an ideal image has no exposure time",
         at + "exposure.mode of \"fixed\" or \"automatic\"", "");
   check_optics(c, at, mistakes);
   if (camera.depth_sensor.min_range >= camera.depth_sensor.max_range)
-    add(beside + "depth_sensor.max_range", "nothing is within reach",
+    add(beside + "depth_sensor.max_range", "the range is empty",
         "more than " + beside + "depth_sensor.min_range", "");
 }
 
@@ -81,7 +81,7 @@ void check_colour(const ColourSpec& colour, const MountedCamera& first, const st
   if (colour.quality == other.quality && colour.samples == other.samples &&
       colour.denoise == other.denoise)
     return;
-  mistakes.push_back({"", 0, at + ".quality", "another way to find colours than that of another camera",
+  mistakes.push_back({"", 0, at + ".quality", "differs from the quality of another camera",
                       "quality, samples and denoise as `cameras." + first.name + "` has them", "", ""});
 }
 

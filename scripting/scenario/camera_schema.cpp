@@ -25,22 +25,20 @@ void add_camera(Schema& k, const std::string& at, CameraScenario& c) {
   k.value(at + "width", c.width, "Width of the image.").between(16, 8192).unit("pixel");
   k.value(at + "height", c.height, "Height of the image.").between(16, 8192).unit("pixel");
   k.value(at + "fov_deg", c.fov_deg,
-          "Horizontal field of view, from edge to edge: up to 170, for a fisheye lens up to 360. The "
-          "distortion of plumb_bob is not taken into account.")
+          "Horizontal field of view, from edge to edge, without the distortion of `plumb_bob`. At most 170, or 360 "
+          "with a `fisheye` lens.")
       .between(1, 360)
       .unit("degree");
   k.value(at + "channels", c.channels, describe_channels());
   k.choice(at + "quality", c.colour.quality, {"fast", "reference", "draft"},
-           "How colours are computed: `fast`: baked light and shadow maps; `reference`: path tracing, which "
-           "takes a minute or more per image ([reference_renderer.md](../development/reference_renderer.md)); `draft`: as "
-           "`fast`, but shadows of the sun have hard edges and air scatters light once, which saves a sixth "
-           "to a third of the time in fog. Depth and channels are the same.");
-  k.value(at + "samples", c.colour.samples, "Paths per pixel, with the quality `reference`.").between(1, 65536);
+           "Computation of colours. `fast`: baked light and shadow maps. `reference`: path tracing, a minute or more "
+           "per image (docs/development/reference_renderer.md). `draft`: as `fast`, with hard shadows of the sun and "
+           "single scattering in air. Depth and channels are the same.");
+  k.value(at + "samples", c.colour.samples, "Quality `reference`: paths per pixel.").between(1, 65536);
   k.value(at + "denoise", c.colour.denoise,
-          "Filters the noise by the exact normals, distances and albedos, with the quality `reference`.");
+          "Quality `reference`: filters noise by the exact normals, distances and albedos.");
   k.value(at + "stereo_baseline", c.stereo_baseline,
-          "Distance to a second camera on the right, with the same lens and exposure, lit by the same lamp; "
-          "0: none.")
+          "Distance to a second camera on the right, with the same lens, exposure and lamp; 0: none.")
       .between(0, 10)
       .unit("m");
   k.value(at + "topic", c.topic,
@@ -78,26 +76,26 @@ void add_shutter(Schema& k, const std::string& at, ShutterSpec& s) {
       .between(0, 1)
       .unit("s");
   k.value(at + "shutter.motion_blur", s.motion_blur,
-          "Averages several images over the exposure, in linear light, one for each pixel of motion.");
-  k.value(at + "shutter.most_samples", s.most_samples, "Largest number of these images.").between(3, 255);
+          "Averages images over the exposure, in linear light: one for each pixel of motion.");
+  k.value(at + "shutter.most_samples", s.most_samples, "Largest number of images for `motion_blur`.").between(3, 255);
 }
 
 void add_exposure(Schema& k, const std::string& at, ExposureSpec& e) {
   k.choice(at + "exposure.mode", e.mode, {"ideal", "fixed", "automatic"},
-           "`ideal`: a display image, metered on the frame itself, without noise; the other keys have no "
-           "effect. `fixed` and `automatic` use them.");
+           "`ideal`: a display image without noise, metered on the frame itself; the other keys have no effect. "
+           "`fixed`, `automatic`: a modelled exposure.");
   k.value(at + "exposure.time", e.time, "Exposure time t.").between(1e-6, 1).unit("s");
-  k.value(at + "exposure.iso", e.iso, "ISO speed S; with automatic exposure, the lowest one.").between(1, 1e6);
+  k.value(at + "exposure.iso", e.iso, "ISO speed S. Automatic: the lowest one.").between(1, 1e6);
   k.value(at + "exposure.f_number", e.f_number, "F-number N of the aperture.").between(0.5, 64);
   k.value(at + "exposure.compensation", e.compensation,
           "Automatic: exposure compensation, relative to a mean of 18 %.")
       .between(-8, 8)
       .unit("stop");
   k.value(at + "exposure.longest_time", e.longest_time,
-          "Automatic: the exposure time is raised up to this, then ...")
+          "Automatic: longest exposure time. It is raised before the ISO speed.")
       .between(1e-6, 1)
       .unit("s");
-  k.value(at + "exposure.highest_iso", e.highest_iso, "... the ISO speed up to this.").between(1, 1e6);
+  k.value(at + "exposure.highest_iso", e.highest_iso, "Automatic: highest ISO speed.").between(1, 1e6);
   k.value(at + "exposure.time_constant", e.time_constant,
           "Automatic: time in which the error falls by a factor of e; 0: at once.")
       .between(0, 60)
@@ -125,22 +123,21 @@ void add_sensor(Schema& k, const std::string& at, ImageSensorSpec& s) {
 
 void add_depth_sensor(Schema& k, DepthSensorSpec& d) {
   k.group("depth_sensor",
-          "A depth sensor in the place of the camera; its measurement is recorded beside the exact depth. It "
-          "sees the same smoke and dust. Thin fog already disturbs a time-of-flight sensor, because its "
-          "emitter lights the fog right before the lens. Example: a wall 3 m away, a lens of 60 degrees. In "
-          "fog of 0.01, 0.03 and 0.1 /m, 62, 19 and 5 % of the pixels are within 10 cm; with an "
-          "emitter_offset of 0.3 m it is 100, 100 and 48 %. Other types report the fog, or nothing if the "
-          "fog is nearer than min_range.");
+          "A depth sensor in the place of the camera. Its measurement is recorded beside the exact depth, and it "
+          "sees the same smoke and dust. Thin fog disturbs a time-of-flight sensor, because the emitter lights the "
+          "fog in front of the lens. Example: a wall 3 m away and a lens of 60 degrees. In fog of 0.01, 0.03 and 0.1 "
+          "/m, 62, 19 and 5 % of the pixels are within 10 cm; with an emitter_offset of 0.3 m, 100, 100 and 48 %. "
+          "Other types report the fog, or no return if the fog is nearer than min_range.");
   k.choice("depth_sensor.type", d.type, {"none", "ideal", "structured_light", "time_of_flight"},
-           "Type of sensor; models and sources: render/sensors/depth_sensor.h.");
+           "Type of sensor.");
   k.value("depth_sensor.min_range", d.min_range, "Shorter distances give no return.").between(0, 100).unit("m");
   k.value("depth_sensor.max_range", d.max_range, "Longer distances give no return.").above(0, 1000).unit("m");
-  k.value("depth_sensor.noise", d.noise, "Whether the measurement has noise.");
+  k.value("depth_sensor.noise", d.noise, "Adds noise to the measurement.");
   k.value("depth_sensor.baseline", d.baseline, "Structured light: distance from camera to projector.")
       .above(0, 10)
       .unit("m");
   k.value("depth_sensor.disparity_step", d.disparity_step,
-          "Structured light: resolution of the disparity, in pixels of an image with a width of 640.")
+          "Structured light: resolution of the disparity, in pixels of an image 640 pixels wide.")
       .above(0, 10)
       .unit("pixel");
   k.value("depth_sensor.disparity_noise", d.disparity_noise,
@@ -157,15 +154,15 @@ void add_depth_sensor(Schema& k, DepthSensorSpec& d) {
   k.value("depth_sensor.background", d.background, "Time of flight: electrons from ambient light.")
       .between(0, 1e9);
   k.value("depth_sensor.emitter_offset", d.emitter_offset,
-          "Time of flight: distance from the lens to the emitter on its right; close to the lens the air is "
-          "not lit.")
+          "Time of flight: distance from the lens to the emitter on its right. A larger distance lights less air in "
+          "front of the lens.")
       .between(0.001, 1)
       .unit("m");
   k.value("depth_sensor.reflectance", d.reflectance,
           "Infrared reflectance of all surfaces; 0: that of the look of each surface.")
       .between(0, 1);
   k.value("depth_sensor.least_amplitude", d.least_amplitude,
-          "Time of flight: returns with fewer electrons are no return.")
+          "Time of flight: fewer electrons give no return.")
       .between(0, 1e9);
   k.value("depth_sensor.step", d.step, "Time of flight: resolution of the range; 0: not rounded.")
       .between(0, 1)
@@ -190,7 +187,7 @@ void add_event_camera(Schema& k, EventCameraSpec& e) {
       .between(0, 1000)
       .unit("Hz");
   k.value("event_camera.most_motion", e.most_motion,
-          "Largest motion between two rendered images; smaller values are more exact in time, and slower.")
+          "Largest motion between two rendered images. A smaller value gives more exact times and takes longer.")
       .between(0.05, 100)
       .unit("pixel");
   k.value("event_camera.dark", e.dark, "Luminance added before the logarithm.")
@@ -206,24 +203,25 @@ void add_camera_with(Schema& k, const std::string& at, CameraScenario& c) {
   group("shutter", "The stamp of a frame is the middle of its exposure.");
   add_shutter(k, at, c.shutter);
   group("exposure",
-        "Exposure of the image: the share of saturation is 0.65 L t S / (78 N^2), with the luminance L in "
-        "cd/m2 (ISO 12232:2006).");
+        "Exposure of the image. The share of saturation is 0.65 L t S / (78 N^2) for a luminance L in cd/m2 (ISO "
+        "12232:2006).");
   add_exposure(k, at, c.exposure);
   group("optics",
-        "Faults of a real lens; they change the colour image only, and need an exposure of `fixed` or "
-        "`automatic` ([optics.md](../explanation/optics.md)).");
+        "Aberrations of a real lens. They change the colour image only, and need `exposure.mode` `fixed` or "
+        "`automatic` (docs/explanation/optics.md).");
   add_optics_keys(k, at, c.optics);
-  group("sensor", "From light to stored numbers (EMVA 1288); without effect for an ideal exposure.");
+  group("sensor", "Image sensor (EMVA 1288). No effect on an ideal exposure.");
   add_sensor(k, at, c.sensor);
 }
 
 Schema mounted_camera_schema(MountedCamera& m) {
   Schema k;
   add_ride_keys(k, "", m.ride);
-  k.value("position", m.position, "Position of the camera body in the rig, or in the link of `ride`: X forward, Y left, Z up.")
+  k.value("position", m.position, "Position of the camera body on the rig, or on the link of `ride`: X forward, Y "
+                                  "left, Z up.")
       .between(-10, 10)
       .unit("m");
-  k.value("rpy_deg", m.rpy_deg, "Roll, pitch (positive: down) and yaw (positive: to the left), likewise.")
+  k.value("rpy_deg", m.rpy_deg, "Roll, pitch (positive: down) and yaw (positive: left) in the same frame.")
       .between(-360, 360)
       .unit("degree");
   k.value("rate_hz", m.rate_hz, "Frames per second; not given: `trajectory.rate_hz`.")
@@ -242,10 +240,10 @@ void add_camera_keys(Schema& keys, Scenario& s) {
           "The camera. Colour and depth have the same pixels. The default is an exact pinhole camera.");
   add_camera_with(keys, "camera.", s.camera);
   keys.add("cameras",
-           "Several cameras instead of `camera`. Names have lower-case letters, digits and underscores: "
-           "`cameras = { front = { ... }, left = { ... } }`. Each camera is fixed to the rig, which flies "
-           "the trajectory and has the lamp, or to a link of a robot (`ride`), with a lamp of its own. Besides the keys below, it has every key of `camera`, and its "
-           "own `depth_sensor` and `event_camera`.",
+           "Several cameras instead of `camera`: `cameras = { front = { ... }, left = { ... } }`. Names have "
+           "lower-case letters, digits and underscores. A camera is fixed to the rig, which flies the trajectory and "
+           "has the lamp, or to a link of a robot (`ride`), with a lamp of its own. Each camera has the keys below, "
+           "every key of `camera`, and its own `depth_sensor` and `event_camera`.",
            [&s](std::size_t) {
              return Schema::named_tables(s.cameras, &MountedCamera::name, "front",
                                          mounted_camera_schema);

@@ -10,7 +10,7 @@ namespace {
 
 void add_figures(Schema& k, LidarScenario& l) {
   k.value("rate_hz", l.rate_hz,
-          "Scans per second; not given, as for all keys down to `divergence_mrad`: that of the model.")
+          "Scans per second. Not given: the value of the model, as for all keys down to `divergence_mrad`.")
       .between(1, 100)
       .unit("Hz");
   k.value("min_range", l.min_range, "Shorter distances give no echo.").between(0.01, 100).unit("m");
@@ -22,8 +22,7 @@ void add_figures(Schema& k, LidarScenario& l) {
   k.value("range_noise", l.range_noise, "Standard deviation of the range.").between(0, 1).unit("m");
   k.value("range_step", l.range_step, "Resolution of the range; 0: not rounded.").between(0, 1).unit("m");
   k.value("divergence_mrad", l.divergence_mrad,
-          "Full angle of the beam at 1/e^2 of its central intensity; 0: a line, which never gives echoes of "
-          "two surfaces.")
+          "Full angle of the beam at 1/e^2 of its central intensity; 0: a line, without echoes of two surfaces.")
       .between(0, 100)
       .unit("mrad");
 }
@@ -31,24 +30,23 @@ void add_figures(Schema& k, LidarScenario& l) {
 Schema lidar_schema(LidarScenario& l) {
   Schema k;
   k.choice("model", l.model, {"vlp16", "os0", "os1", "os2", "mid360", "utm30lx"},
-           "The model, which sets the defaults of the other keys: [lidar.md](lidar.md).");
+           "The model. It sets the defaults of the other keys (docs/reference/lidar.md).");
   add_ride_keys(k, "", l.ride);
-  k.value("position", l.position, "Position in the rig, or in the link of `ride`: X forward, Y left, Z up.").between(-10, 10).unit("m");
-  k.value("rpy_deg", l.rpy_deg, "Orientation likewise: roll, pitch (positive: down) and yaw.")
+  k.value("position", l.position, "Position on the rig, or on the link of `ride`: X forward, Y left, Z up.").between(-10, 10).unit("m");
+  k.value("rpy_deg", l.rpy_deg, "Orientation in the same frame: roll, pitch (positive: down), yaw.")
       .between(-360, 360)
       .unit("degree");
-  k.value("channels", l.channels, "Number of rings of an `os0`, `os1` or `os2`: 32, 64 or 128; 0: 64.").between(0, 128);
+  k.value("channels", l.channels, "`os0`, `os1`, `os2`: number of rings, 32, 64 or 128; 0: 64.").between(0, 128);
   k.value("columns", l.columns,
-          "Number of firings of each ring in a scan, of an `os0`, `os1` or `os2`: 512, 1024 or 2048; 0: 1024.")
+          "`os0`, `os1`, `os2`: firings of each ring in a scan, 512, 1024 or 2048; 0: 1024.")
       .between(0, 2048);
   add_figures(k, l);
   k.choice("returns", l.returns, {"strongest", "last", "dual"},
-           "Reported echoes of a ray: `strongest`, `last`, or `dual`, the strongest and the last. If these "
-           "are the same, `dual` reports the next strongest instead of the last.");
-  k.value("noise", l.noise, "false: exact ranges, except for `range_step`, and detection without randomness.");
+           "Reported echoes of a ray. `dual`: the strongest and the last; if these are the same, the two strongest.");
+  k.value("noise", l.noise, "false: exact ranges, except for `range_step`, and no random detection.");
   k.value("topic", l.topic,
-          "ROS topic; not given: `/points`, or `/scan` for a 2-D scanner. If there are several of a kind: "
-          "`/NAME/points` and `/NAME/scan`.");
+          "ROS topic; not given: `/points`, or `/scan` of a 2-D scanner; with several of a kind `/NAME/points`, "
+          "`/NAME/scan`.");
   k.value("frame_id", l.frame_id, "TF frame; not given: `NAME_link`.");
   return k;
 }
@@ -67,15 +65,15 @@ void check_lidar(const LidarScenario& lidar, std::vector<Diagnostic>& mistakes) 
     std::string list;
     for (const int v : allowed) list += (list.empty() ? "" : ", ") + std::to_string(v);
     if (!lidar.has_channels() && value != 0)
-      add(key, "this model has no choice of them", "no such key", std::to_string(value));
+      add(key, "this model has a fixed number", "no such key", std::to_string(value));
     else if (value != 0 && !one_of(value, allowed))
-      add(key, "no such sensor is made", list, std::to_string(value));
+      add(key, "the model has no such version", list, std::to_string(value));
   };
   check_count("channels", lidar.channels, {32, 64, 128});
   check_count("columns", lidar.columns, {512, 1024, 2048});
   const LidarSpec spec = lidar.spec();
   if (spec.min_range >= spec.max_range)
-    add("max_range", "nothing is within reach", "more than min_range, " + format_number(spec.min_range) + " m",
+    add("max_range", "the range is empty", "more than min_range, " + format_number(spec.min_range) + " m",
         format_number(spec.max_range) + " m");
 }
 
@@ -83,9 +81,9 @@ void check_lidar(const LidarScenario& lidar, std::vector<Diagnostic>& mistakes) 
 
 void add_lidar_keys(Schema& keys, Scenario& s) {
   keys.add("lidars",
-           "LiDARs. Names have lower-case letters, digits and underscores: `lidars = { top = { model = "
-           "\"vlp16\" } }`. Each LiDAR is fixed to the rig, which flies the trajectory, or to a link of a robot (`ride`). It scans from the "
-           "start until the last frame of a camera, and sees the same smoke and dust.",
+           "LiDARs: `lidars = { top = { model = \"vlp16\" } }`. Names have lower-case letters, digits and "
+           "underscores. A LiDAR is fixed to the rig, which flies the trajectory, or to a link of a robot (`ride`). "
+           "It scans from the start to the last camera frame, and sees the same smoke and dust.",
            [&s](std::size_t) {
              return Schema::named_tables(s.lidars, &LidarScenario::name, "top", lidar_schema);
            });

@@ -8,31 +8,31 @@ void add_optics_keys(Schema& k, const std::string& at, OpticsSpec& o) {
       .between(0, 20)
       .unit("pixel");
   k.value(at + "optics.glare", o.glare,
-          "Veiling glare and bloom: share of the light that the lens scatters over the image.")
+          "Veiling glare and bloom: share of the light that the lens scatters.")
       .between(0, 0.5);
   k.value(at + "optics.focus_distance", o.focus_distance,
-          "Defocus: distance that is sharp; 0: all distances are sharp.")
+          "Distance in focus; 0: all distances are sharp.")
       .between(0, 1e4)
       .unit("m");
   k.value(at + "optics.focal_length", o.focal_length,
-          "Focal length, for the diameter of the aperture: focal_length / `exposure.f_number`. It does not "
-          "change the field of view.")
+          "Focal length. The diameter of the aperture is focal_length / `exposure.f_number`. The field of view does "
+          "not change.")
       .between(1e-4, 2)
       .unit("m");
   k.value(at + "optics.lateral_colour", o.lateral_colour,
-          "Lateral chromatic aberration: how far red lies outside blue in the farthest corner.")
+          "Lateral chromatic aberration: distance of red outside blue in the farthest corner.")
       .between(-20, 20)
       .unit("pixel");
-  k.value(at + "optics.dirt", o.dirt, "Opacity of smudges on the lens, which follow from the seed; 0: clean.")
+  k.value(at + "optics.dirt", o.dirt, "Opacity of smudges on the lens, drawn from the seed; 0: clean.")
       .between(0, 1);
-  k.value(at + "optics.drops", o.drops, "Number of rain drops on the lens, which follow from the seed.")
+  k.value(at + "optics.drops", o.drops, "Number of rain drops on the lens, drawn from the seed.")
       .between(0, 500);
 }
 
 void add_sensor_pattern_keys(Schema& k, const std::string& at, ImageSensorSpec& s) {
   k.value(at + "sensor.pixel_samples", s.pixel_samples,
-          "Samples of a pixel along each axis; their mean is its colour, so edges have no steps. n x n images "
-          "are rendered. Depth and channels stay those of the centre of the pixel.")
+          "Colour samples of a pixel along each axis, for smooth edges; n x n images are rendered. Depth and "
+          "channels are those of the pixel centre.")
       .between(1, 4);
   k.choice(at + "sensor.mosaic", s.mosaic, {"none", "rggb", "bggr", "grbg", "gbrg"},
            "Bayer mosaic of colour filters; the image is demosaiced (Malvar, He and Cutler 2004).");
@@ -46,10 +46,10 @@ void add_sensor_pattern_keys(Schema& k, const std::string& at, ImageSensorSpec& 
       .between(0, 1e7)
       .unit("electron/s");
   k.value(at + "sensor.hot_pixels", s.hot_pixels,
-          "Share of hot pixels, which have more dark current; they follow from the seed.")
+          "Share of hot pixels, drawn from the seed.")
       .between(0, 0.1);
   k.value(at + "sensor.hot_current", s.hot_current,
-          "Mean dark current of a hot pixel; the currents are exponentially distributed.")
+          "Mean dark current of a hot pixel; exponential distribution.")
       .between(0, 1e8)
       .unit("electron/s");
   k.value(at + "sensor.jpeg_quality", s.jpeg_quality,
@@ -67,7 +67,7 @@ void check_optics(const CameraScenario& camera, const std::string& at, std::vect
     add("optics.focus_distance", "no lens is sharp within its focal length",
         "more than " + at + "optics.focal_length, or 0");
   if (camera.colour.quality == RenderQuality::reference && s.pixel_samples > 1)
-    add("sensor.pixel_samples", "the paths of the reference cover the pixel already", "1");
+    add("sensor.pixel_samples", "path tracing samples the pixel already", "1");
   if (camera.exposure.mode != ExposureMode::ideal) return;
   const std::string modelled = at + "exposure.mode of \"fixed\" or \"automatic\"";
   if (o.any()) add("optics", "an ideal image has a perfect lens", modelled);

@@ -7,22 +7,22 @@ Schema mix_material_schema(MixMaterial& m) {
   Schema k;
   k.value("material", m.material, "A name in materials.lua; it gives density, friction and look.")
       .must();
-  k.value("weight", m.weight, "How often this material is drawn, relative to the others.").between(0, 1e9);
+  k.value("weight", m.weight, "Relative frequency of the material.").between(0, 1e9);
   return k;
 }
 
 void add_pile(Schema& k, PileScenario& p) {
-  k.group("pile", "The pieces that fall, and where.");
+  k.group("pile", "The falling pieces and the structure.");
   k.value("pile.spawn_position", p.spawn_position,
-          "Centre of the box in which the pieces of a layer start; Z is up.")
+          "Centre of the box in which pieces start; Z is up.")
       .between(-1000, 1000)
       .unit("m");
-  k.value("pile.spawn_bounds", p.spawn_bounds, "Full edge lengths of that box.")
+  k.value("pile.spawn_bounds", p.spawn_bounds, "Full edge lengths of the box in which pieces start.")
       .above(0, 1000)
       .unit("m");
   k.group("pile.spawn_density",
-          "Horizontal distribution of the starting positions in this box: a grid of weights, as "
-          "rubble.density makes it; not given: uniform.");
+          "Horizontal distribution of the starting positions: a grid of weights, as rubble.density makes it. Not "
+          "given: uniform.");
   k.value("pile.spawn_density.columns", p.spawn_density.columns, "Number of cells along X.").between(0, 256);
   k.value("pile.spawn_density.rows", p.spawn_density.rows, "Number of cells along Y.").between(0, 256);
   k.value("pile.spawn_density.weights", p.spawn_density.weights,
@@ -33,13 +33,13 @@ void add_pile(Schema& k, PileScenario& p) {
   k.list("pile.mix", p.mix,
           "The assets that layers are drawn from; empty: every asset of the packs, by its own weight.");
   k.item("pile.mix[].asset", p.mix, &MixItem::asset, "Name of an asset.").must();
-  k.item("pile.mix[].weight", p.mix, &MixItem::weight, "How often the asset is drawn, relative to the others.")
+  k.item("pile.mix[].weight", p.mix, &MixItem::weight, "Relative frequency of the asset.")
       .between(0, 1e9);
   k.item("pile.mix[].scale", p.mix, &MixItem::scale,
          "Size, between {min, max}; not given: the range and distribution of the asset.")
       .between(0.01, 100);
   k.add("pile.mix[].spread",
-        "Distribution of sizes within `scale`: uniform, or about `typical`, truncated at the ends.",
+        "Distribution of sizes, truncated to `scale`.",
         [&p](std::size_t i) {
           return Schema::choice_slot(p.mix[i].spread.kind, {"uniform", "normal", "lognormal"});
         });
@@ -57,7 +57,7 @@ void add_pile(Schema& k, PileScenario& p) {
   k.list("pile.placed", p.placed, "Single pieces that are placed before the first layer falls.");
   k.item("pile.placed[].asset", p.placed, &PlacedItem::asset, "Name of an asset.");
   k.item("pile.placed[].box", p.placed, &PlacedItem::box,
-         "Instead of an asset: a box with these full edge lengths, with its origin at the centre.")
+         "Instead of an asset: full edge lengths of a box. Its origin is at its centre.")
       .between(0.02, 100)
       .unit("m");
   k.item("pile.placed[].material", p.placed, &PlacedItem::material,
@@ -79,8 +79,7 @@ void add_pile(Schema& k, PileScenario& p) {
 
 void add_terrain(Schema& k, TerrainScenario& t) {
   k.group("pile.terrain",
-          "Fixed terrain on the ground z = 0: heights on a grid, as rubble.terrain makes them, or a mesh; "
-          "neither: the ground only.");
+          "Fixed terrain on the ground z = 0: heights on a grid, as rubble.terrain makes them, or a mesh.");
   k.value("pile.terrain.columns", t.columns, "Number of grid points along X.").between(0, 1024);
   k.value("pile.terrain.rows", t.rows, "Number of grid points along Y.").between(0, 1024);
   k.value("pile.terrain.spacing", t.spacing, "Distance of neighbouring grid points.").between(0.01, 100).unit("m");
@@ -90,8 +89,8 @@ void add_terrain(Schema& k, TerrainScenario& t) {
       .between(-1000, 1000)
       .unit("m");
   k.value("pile.terrain.file", t.file,
-          "Instead of a grid: a mesh in any common format, relative to the script; pieces lie on the side "
-          "that its triangles face.");
+          "Instead of a grid: a mesh in any common format, relative to the script. Pieces lie on the front side of "
+          "its triangles.");
   k.value("pile.terrain.metres_per_unit", t.metres_per_unit, "Length unit of the file, in metres.").above(0, 1000);
   k.choice("pile.terrain.up", t.up, {"y", "z"}, "The axis of the file that points up.");
   k.value("pile.terrain.position", t.position,
@@ -100,8 +99,8 @@ void add_terrain(Schema& k, TerrainScenario& t) {
       .unit("m");
   k.value("pile.terrain.friction", t.friction, "Coulomb coefficient against concrete.").between(0, 2);
   k.value("pile.terrain.look", t.look,
-          "Look of the grid, and of surfaces of the mesh whose name is not a look. Empty: the colours of the file "
-          "where it has some, else `ground`.");
+          "Look of the grid, and of mesh surfaces whose name is not a look. Empty: the colours of the file, "
+          "otherwise `ground`.");
 }
 
 void add_building(Schema& k, BuildingSpec& b) {
@@ -109,13 +108,13 @@ void add_building(Schema& k, BuildingSpec& b) {
           "A building, centred at the origin on the ground z = 0, that collapses before the first layer falls. "
           "rubble.building makes a pile of it.");
   k.choice("pile.building.kind", b.kind, {"frame", "masonry", "precast", "bridge"},
-           "frame: columns, beams and slabs of reinforced concrete, cast in place; masonry: walls on all grid lines "
-           "with timber floors; precast: beams on corbels and hollow floor units on beams; bridge: girders along X "
-           "on piers and abutments.");
-  k.value("pile.building.storeys", b.storeys, "Number of storeys; 0: there is no building.").between(0, 12);
+           "`frame`: columns, beams and slabs of reinforced concrete, cast in place. `masonry`: walls on all grid "
+           "lines, timber floors. `precast`: beams on corbels, hollow floor units. `bridge`: girders along X on "
+           "piers and abutments.");
+  k.value("pile.building.storeys", b.storeys, "Number of storeys; 0: no building.").between(0, 12);
   k.value("pile.building.bays_x", b.bays_x, "Number of bays along X.").between(1, 8);
   k.value("pile.building.bays_y", b.bays_y, "Number of bays along Y.").between(1, 8);
-  k.value("pile.building.span_x", b.span_x, "Distance of column axes along X: above 12 m for bridges only.").between(2, 40).unit("m");
+  k.value("pile.building.span_x", b.span_x, "Distance of column axes along X; above 12 m for bridges only.").between(2, 40).unit("m");
   k.value("pile.building.span_y", b.span_y, "Distance of column axes along Y; of a bridge: of its girders.").between(2, 12).unit("m");
   k.value("pile.building.storey_height", b.storey_height, "Distance from floor to floor; of a bridge: height of its deck.").between(2.2, 12).unit("m");
   k.value("pile.building.column", b.column, "Edge length of the columns' section; beams have the same width, girders half of it.").between(0.15, 2).unit("m");
@@ -125,13 +124,12 @@ void add_building(Schema& k, BuildingSpec& b) {
   k.value("pile.building.beam_bars", b.beam_bars, "Reinforcement of beams, as a share of the section.").between(0, 0.06);
   k.value("pile.building.slab_bars", b.slab_bars, "Reinforcement of slabs, as a share of the section.").between(0, 0.06);
   k.value("pile.building.continuity", b.continuity,
-          "Share of the bars that hold pieces together after the concrete has failed, until they tear; 0: "
-          "broken pieces fall.")
+          "Share of the bars that hold pieces together after the concrete has failed, until the bars tear.")
       .between(0, 1);
   k.choice("pile.building.infill", b.infill, {"none", "brick", "block"},
            "Material of the walls between the outer columns, or of masonry (none: brick).");
-  k.value("pile.building.infill_thickness", b.infill_thickness, "Thickness of these walls.").between(0.08, 0.5).unit("m");
-  k.value("pile.building.openings", b.openings, "Share of the length of each wall that is a window.").between(0, 0.8);
+  k.value("pile.building.infill_thickness", b.infill_thickness, "Thickness of the infill.").between(0.08, 0.5).unit("m");
+  k.value("pile.building.openings", b.openings, "Share of windows in the length of each wall.").between(0, 0.8);
   k.value("pile.building.piece", b.piece, "Approximate length of the pieces that members break into.")
       .between(0.3, 3)
       .unit("m");
@@ -149,8 +147,8 @@ void add_building(Schema& k, BuildingSpec& b) {
   bays("cores", b.cores, "Bays of a frame with a lift shaft of reinforced walls.");
   k.value("pile.building.wall", b.wall, "Thickness of masonry walls that carry floors.").between(0.15, 1).unit("m");
   k.value("pile.building.joist_depth", b.joist_depth, "Depth of the joists of timber floors.").between(0.1, 0.5).unit("m");
-  k.value("pile.building.joist_width", b.joist_width, "Width of these joists.").between(0.04, 0.3).unit("m");
-  k.value("pile.building.joist_spacing", b.joist_spacing, "Distance of the axes of these joists, at most.").between(0.3, 2).unit("m");
+  k.value("pile.building.joist_width", b.joist_width, "Width of the joists.").between(0.04, 0.3).unit("m");
+  k.value("pile.building.joist_spacing", b.joist_spacing, "Largest distance of the axes of the joists.").between(0.3, 2).unit("m");
 }
 
 void add_plan(Schema& k, BuildingPlan& plan) {
@@ -159,18 +157,19 @@ void add_plan(Schema& k, BuildingPlan& plan) {
   k.value("pile.building.plan.heights", plan.heights, "Heights of the storeys from floor to floor, from the ground.")
       .between(2, 12)
       .unit("m");
-  k.list("pile.building.plan.parts", plan.parts, "What is drawn; where two walls meet, the first one goes through.");
+  k.list("pile.building.plan.parts", plan.parts, "Parts of the plan. Where two walls meet, the first one is "
+                                                 "continuous.");
   const auto item = [&](const std::string& key, auto PlanPart::*member, const std::string& doc) -> Key& {
     return k.item("pile.building.plan.parts[]." + key, plan.parts, member, doc);
   };
-  k.add("pile.building.plan.parts[].kind", "What it is; a door is a window with bottom 0.",
+  k.add("pile.building.plan.parts[].kind", "Kind of part. A door is a window with `bottom = 0`.",
         [&plan](std::size_t i) {
           return Schema::choice_slot(plan.parts[i].kind, {"wall", "column", "beam", "slab", "joists", "window", "hole"});
         })
       .must();
   item("name", &PlanPart::name, "Name for errors and causes.");
-  item("lowest", &PlanPart::lowest, "Lowest storey that has it, from 0.").between(0, 11);
-  item("highest", &PlanPart::highest, "Highest storey that has it.").between(0, 11);
+  item("lowest", &PlanPart::lowest, "Lowest storey with this part, from 0.").between(0, 11);
+  item("highest", &PlanPart::highest, "Highest storey with this part.").between(0, 11);
   item("x1", &PlanPart::x1, "First end of its line, or corner of its rectangle, along X.").between(-500, 500).unit("m");
   item("y1", &PlanPart::y1, "The same along Y.").between(-500, 500).unit("m");
   item("x2", &PlanPart::x2, "Second end of its line, or opposite corner, along X.").between(-500, 500).unit("m");
@@ -179,7 +178,7 @@ void add_plan(Schema& k, BuildingPlan& plan) {
   item("depth", &PlanPart::depth, "Depth of a beam, below the ceiling.").between(0.05, 3).unit("m");
   item("bottom", &PlanPart::bottom, "Lower edge of a window or wall above the floor.").between(0, 12).unit("m");
   item("top", &PlanPart::top, "Upper edge; 0: at the ceiling.").between(0, 12).unit("m");
-  k.add("pile.building.plan.parts[].material", "What it is made of.", [&plan](std::size_t i) {
+  k.add("pile.building.plan.parts[].material", "Material of the part.", [&plan](std::size_t i) {
     return Schema::choice_slot(plan.parts[i].material, {"concrete", "brick", "block", "timber"});
   });
   item("bars", &PlanPart::bars, "Reinforcement as a share of the section; below 0: as in a frame.").between(-1, 0.06);
@@ -187,17 +186,17 @@ void add_plan(Schema& k, BuildingPlan& plan) {
 
 void add_furniture(Schema& k, std::vector<FurnitureItem>& items) {
   k.list("pile.building.furniture", items,
-         "What stands on the floors before the collapse: furniture, appliances, or the cars of a car park.");
+         "Objects on the floors before the collapse: furniture, appliances, or the cars of a car park.");
   k.item("pile.building.furniture[].asset", items, &FurnitureItem::asset, "Name of an asset.").must();
   k.item("pile.building.furniture[].per_bay", items, &FurnitureItem::per_bay,
-         "Mean number in each bay of each floor; what finds no room is left out.")
+         "Mean number in each bay of each floor. Objects without room are left out.")
       .between(0, 20);
-  k.item("pile.building.furniture[].roof", items, &FurnitureItem::roof, "Whether they stand on the roof as well.");
+  k.item("pile.building.furniture[].roof", items, &FurnitureItem::roof, "Also on the roof.");
 }
 
 void add_vehicle(Schema& k, StrikingVehicle& v) {
   k.group("pile.building.cause.vehicle",
-          "A vehicle that drives into a column of the ground storey; mass 0: there is none.");
+          "A vehicle that hits a column of the ground storey; `mass = 0`: none.");
   k.value("pile.building.cause.vehicle.mass", v.mass, "Mass of the vehicle.").between(0, 100000).unit("kg");
   k.value("pile.building.cause.vehicle.speed", v.speed, "Speed at the impact.").between(0, 60).unit("m/s");
   k.value("pile.building.cause.vehicle.direction_deg", v.direction_deg,
@@ -212,7 +211,7 @@ void add_vehicle(Schema& k, StrikingVehicle& v) {
 }
 
 void add_cause(Schema& k, CollapseCause& c) {
-  k.group("pile.building.cause", "The cause of the collapse; none: the building stands.");
+  k.group("pile.building.cause", "The cause of the collapse. Without a cause, the building stands.");
   k.list("pile.building.cause.removed", c.removed, "Columns that are removed at once.");
   k.item("pile.building.cause.removed[].storey", c.removed, &ColumnPlace::storey,
           "Storey of the column, from 0 at the ground.")
@@ -225,14 +224,15 @@ void add_cause(Schema& k, CollapseCause& c) {
       .between(0, 8);
   k.item("pile.building.cause.removed[].part", c.removed, &ColumnPlace::part,
          "Of a plan: name of the wall or column, instead of i and j.");
-  k.value("pile.building.cause.weak_storey", c.weak_storey, "Soft storey: its walls are missing, its columns, or walls that carry floors, are weak; -1: none.").between(-1, 11);
-  k.value("pile.building.cause.weakness", c.weakness, "Share of their strength that these columns keep.")
+  k.value("pile.building.cause.weak_storey", c.weak_storey, "Soft storey: no infill, and weak columns or "
+                                                            "load-bearing walls; -1: none.").between(-1, 11);
+  k.value("pile.building.cause.weakness", c.weakness, "Remaining share of strength in the soft storey.")
       .between(0, 1);
   k.value("pile.building.cause.overloaded_floor", c.overloaded_floor,
-          "Floor with an additional load; 0 is the slab above the ground storey; -1: none.")
+          "Floor with an additional load; 0: the slab above the ground storey; -1: none.")
       .between(-1, 11);
-  k.value("pile.building.cause.overload", c.overload, "Additional load of this floor.").between(0, 3000).unit("kg/m2");
-  k.value("pile.building.cause.shake", c.shake, "Largest acceleration of the ground.").between(0, 20).unit("m/s2");
+  k.value("pile.building.cause.overload", c.overload, "Additional load of `overloaded_floor`.").between(0, 3000).unit("kg/m2");
+  k.value("pile.building.cause.shake", c.shake, "Peak ground acceleration.").between(0, 20).unit("m/s2");
   k.value("pile.building.cause.shake_hz", c.shake_hz, "Centre of the frequency range of the motion.").between(0.2, 20).unit("Hz");
   k.value("pile.building.cause.shake_seconds", c.shake_seconds, "Duration of the motion.").between(1, 60).unit("s");
   k.value("pile.building.cause.shake_direction_deg", c.shake_direction_deg,
@@ -240,11 +240,10 @@ void add_cause(Schema& k, CollapseCause& c) {
       .between(-360, 360)
       .unit("degree");
   k.value("pile.building.cause.accelerogram", c.accelerogram,
-          "Instead of a synthetic motion: accelerations at equal time steps, scaled so that the largest is "
-          "`shake`.")
+          "Instead of a synthetic motion: accelerations at equal time steps, scaled to a peak of `shake`.")
       .between(-1e6, 1e6);
   k.value("pile.building.cause.accelerogram_step", c.accelerogram_step,
-          "Time between two of these accelerations.")
+          "Time step of `accelerogram`.")
       .between(0.001, 1)
       .unit("s");
   k.value("pile.building.cause.blast", c.blast,
@@ -271,19 +270,18 @@ void add_cause(Schema& k, CollapseCause& c) {
 
 void add_victim_keys(Schema& k, VictimScenario& v) {
   k.group("victims",
-          "People in the voids of the settled pile, as rigid figures: for missions that search for them "
-          "(docs/explanation/search.md).");
+          "Victims in the voids of the settled pile, as rigid figures (docs/explanation/search.md).");
   k.value("victims.count", v.count, "Number of victims.").between(0, 50);
   k.choice("victims.difficulty", v.difficulty, {"easy", "medium", "hard"},
-           "Distance from the entrances: the nearest, the middle or the farthest third of the possible places.");
-  k.value("victims.radius", v.radius, "Radius of the robot that can get near each victim and see it.")
+           "Distance from the entrances: nearest, middle or farthest third of the possible places.");
+  k.value("victims.radius", v.radius, "Radius of a robot that can reach and see each victim.")
       .between(0.05, 1)
       .unit("m");
 }
 
 void add_fine_keys(Schema& k, FinesSpec& f) {
   k.group("fines",
-          "Fines on the settled pile, as true geometry: grit, flakes, shards, paper, cloth, drifts of dust, hanging "
+          "Fines on the settled pile, as true geometry: grit, plaster, glass, paper, cloth, drifts of dust, hanging "
           "cables and pipes (docs/explanation/fines.md).");
   k.value("fines.amount", f.amount, "Number of loose pieces; 0: no fines of any kind.").between(0, 1000000);
   k.value("fines.grit", f.grit, "Share of grit: broken concrete, brick, block or wood, like the pieces near it.")
@@ -292,9 +290,9 @@ void add_fine_keys(Schema& k, FinesSpec& f) {
   k.value("fines.glass", f.glass, "Share of shards of glass, 4 to 80 mm long.").between(0, 1000);
   k.value("fines.paper", f.paper, "Share of sheets of paper, A4 and smaller, whole or torn.").between(0, 1000);
   k.value("fines.cloth", f.cloth, "Share of pieces of cloth, 0.24 to 0.76 m long.").between(0, 1000);
-  k.value("fines.size", f.size, "Longest side of grit: from the first to the second.").between(0.002, 0.2).unit("m");
+  k.value("fines.size", f.size, "Longest side of grit: {smallest, largest}.").between(0.002, 0.2).unit("m");
   k.value("fines.exponent", f.exponent,
-          "The number of pieces of grit longer than d is proportional to d to the power of minus this.")
+          "Exponent n of the size distribution of grit: the number of pieces longer than d is proportional to d^-n.")
       .between(1, 4);
   k.value("fines.drifts", f.drifts, "Number of drifts of dust, most of them at the foot of walls.").between(0, 2000);
   k.value("fines.cables", f.cables, "Number of hanging cables.").between(0, 500);

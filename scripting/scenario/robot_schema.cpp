@@ -14,21 +14,23 @@ constexpr const char* kModelNames[] = {"snake", "crawler", "rover", "vine"};
 
 Schema lamp_schema(LampItem& lamp) {
   Schema k;
-  k.value("link", lamp.link, "The link that it is on; \"\": that of the headlamp, of other robots the base.");
-  k.value("position", lamp.position, "Its position on the link; not given: that of the headlamp, or the link's origin.")
+  k.value("link", lamp.link, "Link that carries the lamp. Empty: the link of the headlamp, otherwise the base.");
+  k.value("position", lamp.position, "Position on the link. Not given: that of the headlamp, otherwise the origin of "
+                                     "the link.")
       .between(-10, 10)
       .unit("m");
-  k.value("rpy_deg", lamp.rpy_deg, "Direction of its beam: roll, pitch (positive: down), yaw, from the link's X axis.")
+  k.value("rpy_deg", lamp.rpy_deg, "Direction of the beam, from the X axis of the link: roll, pitch (positive: "
+                                   "down), yaw.")
       .between(-360, 360)
       .unit("degree");
-  k.value("intensity_cd", lamp.intensity_cd, "Luminous intensity on its axis.").between(0, 100000).unit("cd");
-  k.value("cone_deg", lamp.cone_deg, "Full angle of its cone.").between(1, 170).unit("degree");
+  k.value("intensity_cd", lamp.intensity_cd, "Luminous intensity on the axis.").between(0, 100000).unit("cd");
+  k.value("cone_deg", lamp.cone_deg, "Full angle of the cone.").between(1, 170).unit("degree");
   return k;
 }
 
 Schema leg_schema(RobotLeg& leg) {
   Schema k;
-  k.value("t", leg.t, "Start of this command, since the start of the run.").between(0, 86400).unit("s");
+  k.value("t", leg.t, "Start of this command, in time since the start of the drive.").between(0, 86400).unit("s");
   k.value("linear", leg.linear, "Crawler and rover: forward velocity.").between(-5, 5).unit("m/s");
   k.value("angular", leg.angular, "Crawler and rover: angular velocity, counter-clockwise.")
       .between(-10, 10)
@@ -41,25 +43,25 @@ Schema leg_schema(RobotLeg& leg) {
   k.choice("gait", leg.gait,
            {"lateral_undulation", "sidewinding", "rolling", "serpenoid", "helical_rolling"},
            "Snake: the gait.");
-  k.value("rate", leg.rate, "Snake: angular frequency of its waves; negative: backwards.")
+  k.value("rate", leg.rate, "Snake: angular frequency of the waves; negative: backwards.")
       .between(-20, 20)
       .unit("rad/s");
-  k.value("phase", leg.phase, "Snake: phase that the waves have beside rate * t; keeps a change of `rate` smooth.")
+  k.value("phase", leg.phase, "Snake: phase of the waves in addition to rate * t; for a smooth change of `rate`.")
       .between(-1e6, 1e6)
       .unit("rad");
   k.value("amplitude", leg.amplitude, "Snake: amplitude, relative to that of the gait.")
       .between(0, 2);
-  k.value("steering_deg", leg.steering_deg, "Snake: angle that is added to the sideways joints.")
+  k.value("steering_deg", leg.steering_deg, "Snake: offset of the sideways joints.")
       .between(-45, 45)
       .unit("degree");
   k.value("joints", leg.joints,
-          "Positions of all motors, in their order, instead of what the other keys ask of them; sliders in m.")
+          "Positions of all motors, in their order, instead of the other keys; sliders in m.")
       .between(-1000, 1000)
       .unit("rad");
-  k.value("joint_names", leg.joint_names, "The joints that `joints` is for; not given: all motors.");
-  k.value("growth", leg.growth, "Vine: speed at which the tip grows; negative: it retracts.").between(-1, 1).unit("m/s");
-  k.value("curvature", leg.curvature, "Vine: curvature of what grows, to the left.").between(-5, 5).unit("1/m");
-  k.value("curvature_up", leg.curvature_up, "Vine: curvature of what grows, upwards.").between(-5, 5).unit("1/m");
+  k.value("joint_names", leg.joint_names, "Names of the joints of `joints`; not given: all motors.");
+  k.value("growth", leg.growth, "Vine: speed of the tip; negative: retracts.").between(-1, 1).unit("m/s");
+  k.value("curvature", leg.curvature, "Vine: curvature of new links, to the left.").between(-5, 5).unit("1/m");
+  k.value("curvature_up", leg.curvature_up, "Vine: curvature of new links, upwards.").between(-5, 5).unit("1/m");
   return k;
 }
 
@@ -127,7 +129,7 @@ void check_senses(const Scenario& scenario, std::size_t i, std::vector<Diagnosti
   const RobotItem& robot = scenario.robots[i];
   if (robot.senses.empty()) return;
   if (robot.control == 0)
-    mistakes.push_back({"", 0, key_of(i, "senses"), "nobody is told", "a function as `control`", "no function", ""});
+    mistakes.push_back({"", 0, key_of(i, "senses"), "there is no controller", "a function as `control`", "no function", ""});
   std::vector<std::string> names;
   for (const LidarScenario& lidar : scenario.lidars) names.push_back(lidar.name);
   for (const MountedCamera& camera : all_cameras(scenario)) {
@@ -148,7 +150,7 @@ void check_senses(const Scenario& scenario, std::size_t i, std::vector<Diagnosti
 void check_carrier(const Carrier& ride, const std::string& at, const std::vector<std::string>& names,
                    std::vector<Diagnostic>& mistakes) {
   if (!ride.on() && !ride.link.empty())
-    mistakes.push_back({"", 0, at + ".link", "a link of no robot", at + ".robot besides it", "\"" + ride.link + "\"", ""});
+    mistakes.push_back({"", 0, at + ".link", "a link without a robot", at + ".robot as well", "\"" + ride.link + "\"", ""});
   if (!ride.on() || std::find(names.begin(), names.end(), ride.robot) != names.end()) return;
   std::string all;
   for (const std::string& name : names) all += (all.empty() ? "one of " : ", ") + name;
@@ -169,7 +171,7 @@ void check_ride(const Scenario& scenario, const std::vector<std::string>& names,
     add("trajectory.waypoints", "contradicts ride", "one of both", "both");
   if (path.limits.any() || path.smoothing || path.duration || path.rest_at_ends ||
       path.plan != Plan::ghost)
-    add("trajectory.ride", "a robot's way cannot be changed", "rate_hz alone besides it",
+    add("trajectory.ride", "the path of a robot cannot be changed", "rate_hz only",
         "limits, smoothing, a duration or a plan");
 }
 
@@ -192,8 +194,8 @@ void check_sensor_rides(const Scenario& scenario, const std::vector<std::string>
                       std::none_of(scenario.cameras.begin(), scenario.cameras.end(), on_rig);
   if (unseen && (std::any_of(imus.begin(), imus.end(), on_rig) ||
                  std::any_of(scenario.lidars.begin(), scenario.lidars.end(), on_rig)))
-    mistakes.push_back({"", 0, "cameras", "none is on the rig, whose pose is recorded with frames",
-                        "a camera on the rig, or a ride for the inertial units and LiDARs on it", "", ""});
+    mistakes.push_back({"", 0, "cameras", "no camera is on the rig, but an IMU or LiDAR is",
+                        "a camera on the rig, or a `ride` for every IMU and LiDAR on it", "", ""});
   if (mixed && scenario.outputs.euroc)
     mistakes.push_back({"", 0, "outputs.euroc", "the format has one moving body",
                         "cameras on one carrier, or another format", "cameras on several", ""});
@@ -202,7 +204,7 @@ void check_sensor_rides(const Scenario& scenario, const std::vector<std::string>
 }  // namespace
 
 void add_ride_keys(Schema& k, const std::string& at, Carrier& ride) {
-  k.group(at + "ride", "A link of a robot that carries it, instead of the rig.");
+  k.group(at + "ride", "Link of a robot that carries the sensor, instead of the rig.");
   k.value(at + "ride.robot", ride.robot, "Name of the robot.");
   k.value(at + "ride.link", ride.link, "Link of the robot; not given: the first link.");
 }
@@ -210,38 +212,38 @@ void add_ride_keys(Schema& k, const std::string& at, Carrier& ride) {
 void add_robot_keys(Schema& k, Scenario& s) {
   std::vector<RobotItem>& list = s.robots;
   k.list("robots", list, "Robots that are driven through the settled pile (docs/reference/robots.md).");
-  k.add("robots[].model", "One of the bundled robots.", [&list](std::size_t i) {
+  k.add("robots[].model", "Bundled robot.", [&list](std::size_t i) {
     return Schema::choice_slot(list[i].model, {kModelNames[0], kModelNames[1], kModelNames[2], kModelNames[3]});
   });
   k.item("robots[].urdf", list, &RobotItem::urdf,
          "Instead of a bundled robot: a URDF file, relative to the script (docs/reference/robots.md).");
   k.item("robots[].urdf_arguments", list, &RobotItem::urdf_arguments,
-         "URDF robot: arguments of a `.xacro` file, which the xacro tool expands, by name.");
+         "URDF robot: arguments of a `.xacro` file, by name.");
   k.item("robots[].efforts", list, &RobotItem::efforts,
-         "URDF robot: greatest torque of joints' motors, by joint, instead of the file's; sliders in N.")
+         "URDF robot: largest motor torque, by joint, instead of that in the file; sliders in N.")
       .between(0, 1e9)
       .unit("N m");
   k.item("robots[].speeds", list, &RobotItem::speeds,
-         "URDF robot: greatest speed of joints' motors, by joint, instead of the file's; sliders in m/s; 0: no limit.")
+         "URDF robot: largest motor speed, by joint, instead of that in the file; sliders in m/s; 0: no limit.")
       .between(0, 1e9)
       .unit("rad/s");
   k.item("robots[].start", list, &RobotItem::start,
-         "Positions of joints at the start, by joint, within their ranges; others start at 0 or, if their range does not "
-         "hold it, where that is nearest to 0; sliders in m.")
+         "Joint positions at the start, by joint; sliders in m. Other joints start at 0, or at the nearest position "
+         "in their range.")
       .between(-1000, 1000)
       .unit("rad");
   k.item("robots[].left_wheels", list, &RobotItem::left_wheels,
-         "URDF robot: joints of the driven wheels on its left, for `linear`, `angular` and odometry.");
+         "URDF robot: joints of the driven wheels on the left, for `linear`, `angular` and odometry.");
   k.item("robots[].right_wheels", list, &RobotItem::right_wheels,
-          "URDF robot: joints of the driven wheels on its right.");
+          "URDF robot: joints of the driven wheels on the right.");
   k.item("robots[].wheel_radius", list, &RobotItem::wheel_radius, "URDF robot: radius of these wheels.")
       .between(0.001, 10)
       .unit("m");
   k.item("robots[].name", list, &RobotItem::name,
-         "Name of its files and topics; not given: the name of the model and a number.");
+         "Name in files and topics; not given: the model and a number.");
   k.item("robots[].position", list, &RobotItem::position,
-         "Position of its base frame: on the ground between tracks or wheels, the centre of the head of a "
-         "snake, or the middle of the mouth that a vine grows from.")
+         "Position of the base frame: on the ground between tracks or wheels, at the centre of a snake's head, or at "
+         "the centre of the opening that a vine grows from.")
       .between(-1000, 1000)
       .unit("m");
   k.item("robots[].rpy_deg", list, &RobotItem::rpy_deg,
@@ -249,39 +251,39 @@ void add_robot_keys(Schema& k, Scenario& s) {
       .between(-360, 360)
       .unit("degree");
   k.item("robots[].modules", list, &RobotItem::modules, "Snake: number of modules.").between(2, 64);
-  k.item("robots[].flippers", list, &RobotItem::flippers, "Whether a crawler has flippers.");
-  k.item("robots[].pressure", list, &RobotItem::pressure, "Vine: pressure in its tube, above that outside.")
+  k.item("robots[].flippers", list, &RobotItem::flippers, "Crawler: has flippers.");
+  k.item("robots[].pressure", list, &RobotItem::pressure, "Vine: gauge pressure in the tube.")
       .above(0, 1e6)
       .unit("Pa");
-  k.item("robots[].radius", list, &RobotItem::radius, "Vine: radius of its tube.").between(0.01, 0.3).unit("m");
-  k.item("robots[].length", list, &RobotItem::length, "Vine: length that it can grow to, at least a link.")
+  k.item("robots[].radius", list, &RobotItem::radius, "Vine: radius of the tube.").between(0.01, 0.3).unit("m");
+  k.item("robots[].length", list, &RobotItem::length, "Vine: largest length, at least one link.")
       .above(0, 100)
       .unit("m");
   k.item("robots[].link_length", list, &RobotItem::link_length,
-         "Vine: length of the rigid links that its tube is modelled by.")
+         "Vine: length of the rigid links that model the tube.")
       .between(0.02, 0.5)
       .unit("m");
   k.item("robots[].friction", list, &RobotItem::friction,
          "Coulomb coefficient of tracks, wheels or skin against concrete; not given: that of the model.")
       .between(0, 2);
   k.item("robots[].odometry_noise", list, &RobotItem::odometry_noise,
-         "Random error of the way that the tracks or wheels of a side report: standard deviation over one metre; it grows "
-         "with the root of the way. 0: exact; 0.001: as published for tracks (docs/reference/robots.md).")
+         "Standard deviation of the distance that the tracks or wheels of one side report over 1 m; it grows with "
+         "the square root of the distance. 0: exact; 0.001: as published for tracks (docs/reference/robots.md).")
       .between(0, 0.1)
       .unit("m");
-  k.add("robots[].lamps", "Spot lights on its links, beside the `lamp` of cameras; `{ {} }` lights the headlamp.",
+  k.add("robots[].lamps", "Spot lights on links, in addition to the `lamp` of cameras. `{ {} }` switches the "
+                          "headlamp on.",
         [&list](std::size_t i) { return Schema::table_list(list[i].lamps, lamp_schema); });
-  k.add("robots[].drive", "Commands, each from its time `t` on; empty: it stands still.",
+  k.add("robots[].drive", "Commands, each from its time `t` on; empty: the robot stands still.",
         [&list](std::size_t i) { return Schema::table_list(list[i].drive, leg_schema); });
   k.item("robots[].control", list, &RobotItem::control,
-         "Instead of `drive`: a function of time and of what the robot senses, registered by "
-         "rubble.controller.")
+         "Instead of `drive`: a function that returns commands, registered by rubble.controller.")
       .between(0, 1000);
   k.item("robots[].senses", list, &RobotItem::senses,
-         "LiDARs, cameras and inertial units on robots, by name: the function is told scans, depths and readings; "
-         "colours by the name with \".rgb\" (docs/reference/robots.md).");
-  k.group("robot_run", "Time and rate of the robots.");
-  k.value("robot_run.duration", s.robot_run.duration, "Time for which they are driven.")
+         "Names of the LiDARs, cameras and IMUs whose scans, depths and readings `control` gets; colours: the name "
+         "with \".rgb\" (docs/reference/robots.md).");
+  k.group("robot_run", "Duration and rate of the drive.");
+  k.value("robot_run.duration", s.robot_run.duration, "Duration of the drive.")
       .above(0, 86400)
       .unit("s");
   k.value("robot_run.control_hz", s.robot_run.control_hz, "Rate of the commands.")

@@ -23,13 +23,13 @@ void check_mix(const PileScenario& pile, std::vector<Diagnostic>& mistakes) {
   for (const MixItem& item : pile.mix) sum += item.weight;
   if (!pile.mix.empty() && sum == 0)
     mistakes.push_back(
-        {"", 0, "pile.mix", "nothing to draw", "a weight above 0", "only weights of 0", ""});
+        {"", 0, "pile.mix", "all weights are 0", "a weight above 0", "only weights of 0", ""});
   for (std::size_t i = 0; i < pile.mix.size(); ++i) {
     double materials = 0;
     for (const MixMaterial& m : pile.mix[i].materials) materials += m.weight;
     if (!pile.mix[i].materials.empty() && materials == 0)
       mistakes.push_back({"", 0, "pile.mix[" + std::to_string(i + 1) + "].materials",
-                          "nothing to draw", "a weight above 0", "only weights of 0", ""});
+                          "all weights are 0", "a weight above 0", "only weights of 0", ""});
   }
 }
 
@@ -44,7 +44,7 @@ void check_density(const SpawnDensity& d, std::vector<Diagnostic>& mistakes) {
     add("not a whole grid", "columns * rows = " + std::to_string(d.columns * d.rows) + " numbers",
         std::to_string(d.weights.size()));
   else if (!d.weights.empty() && sum == 0)
-    add("nowhere to draw", "a weight above 0", "only weights of 0");
+    add("all weights are 0", "a weight above 0", "only weights of 0");
 }
 
 void check_terrain(const TerrainScenario& t, std::vector<Diagnostic>& mistakes) {
@@ -119,7 +119,7 @@ void check_rawlog(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   };
   const auto count = std::count_if(scenario.robots.begin(), scenario.robots.end(), has_odometry);
   if (count == 1) return;
-  mistakes.push_back({"", 0, "outputs.rawlog_format", "actions are what one robot did by its odometry",
+  mistakes.push_back({"", 0, "outputs.rawlog_format", "actions need one robot with odometry",
                       "one robot with odometry: a crawler, a rover, or a URDF robot with left_wheels and right_wheels",
                       std::to_string(count) + " of them", "\"observations\" has the odometry of every robot"});
 }
@@ -136,7 +136,7 @@ void check_record_settling(const RecordSettlingScenario& r, std::vector<Diagnost
     add(r.position ? "look_at" : "position", "missing",
         "both of position and look_at, or neither", "one of them");
   if (r.position && r.look_at && distance(*r.position, *r.look_at) < 0.01)
-    add("look_at", "is where the camera is", "a point 0.01 m away or farther", "");
+    add("look_at", "is the position of the camera", "a point 0.01 m away or farther", "");
 }
 
 // A run that reaches the limit later ends there with an error.
@@ -188,7 +188,7 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_fines(scenario.fines, mistakes);
   check_surroundings(scenario, mistakes);
   if (scenario.victims.count > 0 && needs_track(scenario))
-    mistakes.push_back({"", 0, "victims.count", "victims lie in the pile only when it has settled",
+    mistakes.push_back({"", 0, "victims.count", "victims are placed after the pile has settled",
                         "no record_settling and no outputs.track, or 0", std::to_string(scenario.victims.count), ""});
   if (scenario.voids.radius < scenario.voids.voxel)
     mistakes.push_back({"", 0, "voids.radius", "smaller than a voxel",

@@ -15,38 +15,38 @@ namespace {
 void add_top(Schema& k, Scenario& s) {
   k.value("seed", s.seed, "Seed of all random numbers.")
       .between(0, std::numeric_limits<double>::infinity());
-  k.value("start_ns", s.start_ns, "Stamp of the first frame; not 0, because 0 is an invalid time in ROS.")
+  k.value("start_ns", s.start_ns, "Stamp of the first frame. ROS takes 0 for an invalid time.")
       .between(1, 4294967295e9)
       .unit("ns");
   k.value("packs", s.packs,
           "Asset packs: names of bundled packs, or folders relative to the script; empty: `concrete`.");
   k.value("wetness", s.wetness,
-          "How wet all surfaces are: wet surfaces are darker, and glossy where they face up.")
+          "Wetness of all surfaces. Wet surfaces are darker, and glossy where they face up.")
       .between(0, 1);
 }
 
 void add_settle(Schema& k, SettleOptions& o) {
-  k.group("settle", "How the pile comes to rest.");
+  k.group("settle", "Settling of the pile.");
   k.choice("settle.schedule", o.schedule, {"layers", "planes"},
-           "When the next layer falls: `layers`: when the previous one rests; `planes`: when it has landed, "
-           "like steady rain.");
+           "When the next layer falls. `layers`: when the previous one rests. `planes`: when the previous one has "
+           "landed.");
   k.value("settle.gravity", o.gravity, "Acceleration of gravity, downwards.").between(0, 100).unit("m/s2");
   k.value("settle.step", o.step, "Time step.").between(0.001, 1.0 / 30.0).unit("s");
-  k.value("settle.rest_speed", o.rest_speed, "A piece rests if its speed is below this, and ...")
+  k.value("settle.rest_speed", o.rest_speed, "Largest speed of a piece at rest.")
       .above(0, 10)
       .unit("m/s");
-  k.value("settle.rest_angular_speed", o.rest_angular_speed, "... its angular speed is below this.")
+  k.value("settle.rest_angular_speed", o.rest_angular_speed, "Largest angular speed of a piece at rest.")
       .above(0, 100)
       .unit("rad/s");
   k.value("settle.rest_overlap", o.rest_overlap,
-          "If two pieces overlap by more than this, the pile has not settled.")
+          "Largest overlap of two pieces in a settled pile.")
       .above(0, 1)
       .unit("m");
-  k.value("settle.layer_time_limit", o.layer_time_limit, "The next layer falls after this time at the latest.")
+  k.value("settle.layer_time_limit", o.layer_time_limit, "Longest time before the next layer falls.")
       .above(0, 3600)
       .unit("s");
   k.value("settle.final_time_limit", o.final_time_limit,
-          "Settling ends this long after the last layer at the latest.")
+          "Longest time of settling after the last layer.")
       .above(0, 3600)
       .unit("s");
   k.value("settle.lost_below", o.lost_below, "A piece lower than this has left the world.")
@@ -61,8 +61,7 @@ void add_light(Schema& k, LightScenario& l) {
   k.group("light", "The main light.");
   k.choice(
       "light.type", l.spec.type, {"directional", "spot", "point", "sun"},
-      "A directional light, a spot light, a point light, or the sun. Strength, colour and sky of the sun "
-      "follow from its elevation.");
+      "Type of light. Strength, colour and sky of the sun follow from its elevation.");
   k.value("light.intensity", l.spec.intensity,
           "Illuminance of a directional light in klx (clear sun: 100 klx); luminous intensity of a spot or "
           "point light in kcd.")
@@ -88,7 +87,7 @@ void add_light(Schema& k, LightScenario& l) {
       .unit("degree");
   k.value("light.random_position", l.random_position,
           "Draws the position from the seed, in a box around `position`.");
-  k.value("light.position_bounds", l.position_bounds, "Full edge lengths of that box.")
+  k.value("light.position_bounds", l.position_bounds, "Full edge lengths of the box of `random_position`.")
       .between(0, 1000)
       .unit("m");
   add_sky_keys(k, l);
@@ -96,8 +95,8 @@ void add_light(Schema& k, LightScenario& l) {
 
 void add_more_lights(Schema& k, std::vector<LightSpec>& lights) {
   k.list("lights", lights,
-         "Further lights, three at most; only the main light has a sky.");
-  k.add("lights[].type", "A directional light, a spot light or a point light.", [&lights](std::size_t i) {
+         "Further lights, at most three. Only the main light has a sky.");
+  k.add("lights[].type", "Type of light.", [&lights](std::size_t i) {
     return Schema::choice_slot(lights[i].type, {"directional", "spot", "point"});
   });
   k.item("lights[].intensity", lights, &LightSpec::intensity,
@@ -117,17 +116,17 @@ void add_more_lights(Schema& k, std::vector<LightSpec>& lights) {
 }
 
 void add_dust(Schema& k, DustSpec& dust) {
-  k.group("air.dust", "Bursts of dust, as when debris shifts.");
+  k.group("air.dust", "Bursts of dust, as from shifting debris.");
   k.value("air.dust.period", dust.period, "Mean time between bursts; 0: no dust.")
       .between(0, 3600)
       .unit("s");
   k.value("air.dust.irregularity", dust.irregularity,
-          "How irregular the times of bursts are, as a share of the period; 0: regular.")
+          "Irregularity of the times between bursts, as a share of the period; 0: regular.")
       .between(0, 1);
-  k.value("air.dust.position", dust.position, "Bursts start in a box with this centre ...")
+  k.value("air.dust.position", dust.position, "Centre of the box in which bursts start.")
       .between(-1000, 1000)
       .unit("m");
-  k.value("air.dust.bounds", dust.bounds, "... and these full edge lengths.")
+  k.value("air.dust.bounds", dust.bounds, "Full edge lengths of the box in which bursts start.")
       .between(0, 1000)
       .unit("m");
   k.value("air.dust.density", dust.density, "Extinction in the centre of a fresh plume.")
@@ -152,8 +151,8 @@ void add_air_and_lamp(Schema& k, AirSpec& air, LampSpec& lamp) {
       .unit("1/m");
   k.value("air.fog_intensity", air.fog_intensity, "Brightness of the fog.").between(0, 1);
   k.value("air.fog_asymmetry", air.fog_asymmetry,
-          "Mean cosine of the scattering angle (Henyey-Greenstein): 0: isotropic; near 1: forward. Smoke "
-          "0.75, droplets 0.85.")
+          "Mean cosine of the scattering angle (Henyey-Greenstein); 0: isotropic; near 1: forward. Smoke: 0.75; "
+          "droplets: 0.85.")
       .between(-0.99, 0.99);
   k.value("air.fog_height", air.fog_height,
           "Height above the ground over which the density falls by a factor of e; 0: constant density.")
@@ -166,10 +165,11 @@ void add_air_and_lamp(Schema& k, AirSpec& air, LampSpec& lamp) {
       .between(0.05, 100)
       .unit("m");
   k.value("air.rain_mm_h", air.rain_mm_h,
-          "Rain, as a rate of water: streaks in images with a modelled exposure, and a veil (docs/explanation/weather.md).")
+          "Rate of rain. It makes a veil, and streaks in images with a modelled exposure "
+          "(docs/explanation/weather.md).")
       .between(0, 100)
       .unit("mm/h");
-  k.value("air.snow_mm_h", air.snow_mm_h, "Snow that falls, as a rate of melted water; likewise.")
+  k.value("air.snow_mm_h", air.snow_mm_h, "Rate of snowfall, as melted water. It makes a veil and streaks.")
       .between(0, 10)
       .unit("mm/h");
   k.value("air.wind", air.wind, "Velocity of billows, dust, drops and flakes.").between(-50, 50).unit("m/s");
@@ -181,7 +181,7 @@ void add_air_and_lamp(Schema& k, AirSpec& air, LampSpec& lamp) {
       .between(5, 170)
       .unit("degree");
   k.choice("lamp.shape", lamp.shape, {"point", "ring", "cluster"},
-           "A small bright point, diodes in a ring, or diodes on a disc.");
+           "`point`: one small source; `ring`: diodes in a ring; `cluster`: diodes on a disc.");
   k.value("lamp.size", lamp.size, "Diameter of the ring or disc.").between(0, 1).unit("m");
   k.value("lamp.position", lamp.position, "Position in the camera frame: X forward, Y left, Z up.")
       .between(-10, 10)
@@ -192,53 +192,48 @@ void add_trajectory(Schema& k, TrajectorySpec& t) {
   k.group("trajectory", "The path of the camera.");
   k.value("trajectory.rate_hz", t.rate_hz, "Frames per second.").between(0.001, 1000).unit("Hz");
   k.choice("trajectory.interpolation", t.interpolation, {"automatic", "spline", "linear"},
-           "`spline`: a smooth curve through the waypoints; `linear`: straight legs. With the plan `avoid`, "
-           "the planned path, smoothed or as straight legs. `automatic`: a curve, or straight legs with the "
-           "plan `avoid`.");
+           "`spline`: a smooth curve through the waypoints. `linear`: straight legs. `automatic`: `linear` with the "
+           "plan `avoid`, otherwise `spline`.");
   k.value("trajectory.speed", t.speed, "Speed towards a waypoint that has neither `t` nor `speed`.")
       .above(0, 1000)
       .unit("m/s");
   k.choice("trajectory.plan", t.plan, {"ghost", "refuse", "avoid"},
-           "What happens at obstacles: `ghost`: fly through pieces; `refuse`: stop the run if the path "
-           "touches anything; `avoid`: plan a path around obstacles.");
-  k.value("trajectory.radius", t.radius, "Radius of the body of the camera, a sphere, for the plan.")
+           "Behaviour at obstacles. `ghost`: fly through pieces. `refuse`: stop the run before the first frame if "
+           "the path touches anything. `avoid`: plan the shortest path around obstacles.");
+  k.value("trajectory.radius", t.radius, "Radius of the camera body, a sphere, for `plan`.")
       .between(0.005, 10)
       .unit("m");
   k.value("trajectory.duration", t.duration,
-          "Duration of the whole path; it replaces the sum of the times and speeds.")
+          "Duration of the whole path. It overrides the times and speeds of waypoints.")
       .above(0, 86400)
       .unit("s");
-  k.value("trajectory.max_speed", t.limits.max_speed, "Slows the path down where its speed is higher.")
+  k.value("trajectory.max_speed", t.limits.max_speed, "Largest speed. The path slows down to keep it.")
       .above(0, 1000)
       .unit("m/s");
   k.value("trajectory.max_acceleration", t.limits.max_acceleration,
-          "Slows the path down where its acceleration is higher, also in curves; straight legs then nearly "
-          "stop at their corners.")
+          "Largest acceleration, also in curves. Straight legs then nearly stop at corners.")
       .above(0, 10000)
       .unit("m/s2");
   k.value("trajectory.max_turn_rate_deg", t.limits.max_turn_rate_deg,
-          "Slows the path down where the view turns faster.")
+          "Largest turn rate of the view.")
       .above(0, 36000)
       .unit("degree/s");
   k.value("trajectory.max_jerk", t.limits.max_jerk,
-          "Limits the third derivative of the position: the path is smoothed more, and slowed down if that "
-          "is not enough.")
+          "Largest jerk. The path is smoothed more and, if necessary, slowed down.")
       .above(0, 1e6)
       .unit("m/s3");
   k.value("trajectory.smoothing", t.smoothing,
-          "Rounds corners in position and view over about this time, so that the acceleration has no jumps; "
-          "0: no smoothing. Not given: 0.1 with an inertial measurement unit, with `max_jerk`, with "
-          "`rest_at_ends`, and for a spline with the plan `avoid`; otherwise 0.")
+          "Time over which corners in position and view are rounded, so that the acceleration has no jumps; 0: none. "
+          "Not given: 0.1 with an IMU, `max_jerk`, `rest_at_ends`, or a spline with the plan `avoid`; otherwise 0.")
       .between(0, 2)
       .unit("s");
   k.value("trajectory.rest_at_ends", t.rest_at_ends,
-          "The path begins and ends at rest, and takes four times `smoothing` longer.");
-  k.group("trajectory.ride", "A robot carries the camera and all other sensors, instead of a path of "
-                             "waypoints.");
+          "The path begins and ends at rest. It takes longer by four times `smoothing`.");
+  k.group("trajectory.ride", "The robot that carries the rig, instead of waypoints.");
   k.value("trajectory.ride.robot", t.ride.robot,
-          "Name of the robot; frames are taken as long as it is driven.");
+          "Name of the robot. Frames are taken while the robot is driven.");
   k.value("trajectory.ride.link", t.ride.link,
-          "Link of the robot that carries the rig; not given: the first link.");
+          "Link that carries the rig; not given: the first link.");
   k.value("trajectory.ride.position", t.ride.position,
           "Position of the rig in the frame of the link: X forward, Y left, Z up.")
       .between(-10, 10)
@@ -247,7 +242,7 @@ void add_trajectory(Schema& k, TrajectorySpec& t) {
       .between(-360, 360)
       .unit("degree");
   k.list("trajectory.waypoints", t.waypoints,
-         "Points of the path, in order; a single one gives a single frame.");
+         "Points of the path, in order. One point gives one frame.");
   auto& list = t.waypoints;
   k.add("trajectory.waypoints[].position", "Position in the world.",
         [&list](std::size_t i) {
@@ -256,12 +251,11 @@ void add_trajectory(Schema& k, TrajectorySpec& t) {
       .between(-1000, 1000)
       .unit("m")
       .must();
-  k.item("trajectory.waypoints[].t", list, &Waypoint::t, "Time from the start; that of the first waypoint is "
-                                                         "0.")
+  k.item("trajectory.waypoints[].t", list, &Waypoint::t, "Time from the start; 0 at the first waypoint.")
       .between(0, 86400)
       .unit("s");
   k.item("trajectory.waypoints[].speed", list, &Waypoint::speed,
-         "Instead of `t`: speed from the previous waypoint, along the straight line.")
+         "Instead of `t`: speed along the straight line from the previous waypoint.")
       .above(0, 1000)
       .unit("m/s");
   k.item("trajectory.waypoints[].rpy_deg", list, &Waypoint::rpy_deg,
@@ -269,7 +263,7 @@ void add_trajectory(Schema& k, TrajectorySpec& t) {
       .between(-3600, 3600)
       .unit("degree");
   k.add("trajectory.waypoints[].look_at",
-        "Instead of pitch and yaw: the point in the centre of the view.",
+        "Instead of pitch and yaw: point in the centre of the view.",
         [&list](std::size_t i) {
           return Slot(PlaceSlot{nullptr, &list[i].look_at, &list[i].look_at_in_void});
         })
@@ -297,7 +291,7 @@ void add_imu_figures(Schema& k, const std::string& at, ImuScenario& s) {
   k.value(at + "position", s.position, "Position on the rig, or on the link of `ride`: X forward, Y left, Z up.")
       .between(-10, 10)
       .unit("m");
-  k.value(at + "rpy_deg", s.rpy_deg, "Orientation likewise: roll, pitch (positive: down), yaw.")
+  k.value(at + "rpy_deg", s.rpy_deg, "Orientation in the same frame: roll, pitch (positive: down), yaw.")
       .between(-360, 360)
       .unit("degree");
   k.value(at + "topic", s.topic, "ROS topic; not given: `/imu`, or `/NAME` for one of `imus`.");
@@ -314,13 +308,13 @@ Schema named_imu_schema(ImuScenario& s) {
 
 void add_imu(Schema& k, Scenario& s) {
   k.group("imu",
-          "An inertial measurement unit (IMU) on the rig, with white noise and random-walk biases. With one "
-          "camera, the rig is the body of the camera.");
+          "An inertial measurement unit (IMU) on the rig, with white noise and random-walk biases. The rig of a "
+          "single `camera` is the camera body.");
   k.value("imu.on", s.imu.on, "Switches the IMU on.");
   add_imu_figures(k, "imu.", s.imu);
   k.add("imus",
-        "Several IMUs instead of `imu`. Names have lower-case letters, digits and underscores: "
-        "`imus = { head = { ride = { robot = \"snake\" } } }`. Each has every key of `imu`, except for `on`.",
+        "Several IMUs instead of `imu`: `imus = { head = { ride = { robot = \"snake\" } } }`. Names have lower-case "
+        "letters, digits and underscores. Each IMU has every key of `imu` except `on`.",
         [&s](std::size_t) {
           return Schema::named_tables(s.imus, &ImuScenario::name, "head", named_imu_schema);
         });
@@ -328,11 +322,11 @@ void add_imu(Schema& k, Scenario& s) {
 
 void add_record_settling(Schema& k, RecordSettlingScenario& r) {
   k.group("record_settling",
-          "Records the pile while it settles: before its flight, the camera stands still and sees the layers "
-          "fall (docs/explanation/moving_worlds.md).")
+          "Records the pile while it settles. The camera stands still and sees the layers fall, before its flight "
+          "(docs/explanation/moving_worlds.md).")
       .on_when_written();
   k.value("record_settling.on", r.on,
-          "Switches the recording on; a table without this key, even an empty one, also switches it on.");
+          "Switches the recording on. A table without this key, even an empty one, also does.");
   k.value("record_settling.from", r.from, "Start of the recording, in simulated time since the first step.")
       .between(0, 86400)
       .unit("s");
@@ -347,17 +341,17 @@ void add_record_settling(Schema& k, RecordSettlingScenario& r) {
           "Position of the camera, or of the rig; not given: the start of its flight.")
       .between(-1000, 1000)
       .unit("m");
-  k.value("record_settling.look_at", r.look_at, "The point in the centre of the view.")
+  k.value("record_settling.look_at", r.look_at, "Point in the centre of the view.")
       .between(-10000, 10000)
       .unit("m");
 }
 
 void add_outputs(Schema& k, OutputScenario& o) {
-  k.group("outputs", "Files that are written; docs/reference/formats.md describes each format.");
+  k.group("outputs", "Output files. The formats are described in docs/reference/formats.md.");
   k.value("outputs.rawlog", o.rawlog, "MRPT rawlog: mission.rawlog.");
   k.choice("outputs.rawlog_format", o.rawlog_format, {"observations", "actions"},
-           "observations: each by itself, with odometry and true poses; actions: what the one robot did by its odometry, and a "
-           "sensory frame, in turns, as rbpf-slam reads them (docs/how_to/mrpt_slam.md).");
+           "`observations`: one after another, with odometry and true poses. `actions`: odometry increments of the "
+           "one robot and sensory frames in turn, for rbpf-slam (docs/how_to/mrpt_slam.md).");
   k.value("outputs.rawlog_gzip", o.rawlog_gzip,
           "Level of compression; 1 halves the size and takes 3.5 times as long.")
       .between(0, 9);
@@ -378,7 +372,7 @@ void add_outputs(Schema& k, OutputScenario& o) {
   k.value("outputs.meshes", o.meshes,
           "The settled pile in further formats: any of `ply`, `obj`, `glb`, `sdf`.");
   k.value("outputs.groundtruth", o.groundtruth, "Poses of the camera in TUM format: groundtruth.txt.");
-  k.value("outputs.preview", o.preview, "A contact sheet of colour and depth: preview.png.");
+  k.value("outputs.preview", o.preview, "A contact sheet of colour, depth and the first LiDAR's scans from above: preview.png.");
   k.choice("outputs.depth", o.depth, {"16UC1", "32FC1"},
            "Depth in bag and MCAP files: millimetres (0: none) or metres (NaN: none).");
   k.choice(
@@ -388,8 +382,8 @@ void add_outputs(Schema& k, OutputScenario& o) {
 
 void add_voids(Schema& k, VoidScenario& v) {
   k.group("voids", "Metrics of the voids of the settled pile, for suites and batches.");
-  k.value("voids.on", v.on, "Switches the metrics on; `rubble voids` maps voids at any time.");
-  k.value("voids.voxel", v.voxel, "Edge of a voxel; half of it needs eight times the memory.")
+  k.value("voids.on", v.on, "Switches the metrics on. `rubble voids` maps the voids of any finished run.");
+  k.value("voids.voxel", v.voxel, "Edge of a voxel. Half the edge needs eight times the memory.")
       .between(0.01, 1)
       .unit("m");
   k.value("voids.radius", v.radius, "Radius of the robot; at least one voxel.")

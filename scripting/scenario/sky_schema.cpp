@@ -9,15 +9,15 @@ namespace rubble {
 void add_sky_keys(Schema& k, LightScenario& l) {
   k.choice("light.sky", l.sky.type, {"clear", "hazy", "cloudy", "overcast", "moonlit", "city_night",
             "cie_clear"},
-           "Sky of the light type `sun`. `hazy`: visibility of 9 km. `cloudy`: broken clouds by the seed, which "
-           "may hide the sun. `overcast`: CIE standard overcast sky, without sun. `moonlit`: the full moon in "
-           "place of the sun. `city_night`: the glow of a town, without sun and moon; add street lamps by "
-           "`lights`. `cie_clear`: CIE standard clear sky ([sky.md](../explanation/sky.md)).");
-  k.value("light.cloud_cover", l.sky.cloud_cover, "Share of the sky that is cloud, with the sky `cloudy`.")
+           "Sky of the light type `sun` (docs/explanation/sky.md). `hazy`: visibility of 9 km. `cloudy`: broken "
+           "clouds from the seed, which may hide the sun. `overcast`: CIE standard overcast sky, no sun. `moonlit`: "
+           "the full moon instead of the sun. `city_night`: the glow of a town, no sun or moon. `cie_clear`: CIE "
+           "standard clear sky.");
+  k.value("light.cloud_cover", l.sky.cloud_cover, "Sky `cloudy`: share of the sky that is cloud.")
       .between(0, 1);
   k.value("light.latitude_deg", l.latitude_deg,
-          "The sun by place and time, instead of `elevation_deg` and `azimuth_deg`: latitude; north is "
-          "positive.")
+          "Latitude (north is positive). With `longitude_deg` and `time`, it places the sun instead of "
+          "`elevation_deg` and `azimuth_deg`.")
       .between(-90, 90)
       .unit("degree");
   k.value("light.longitude_deg", l.longitude_deg, "Longitude; east is positive.")
@@ -26,7 +26,7 @@ void add_sky_keys(Schema& k, LightScenario& l) {
   k.value("light.time", l.time,
           "Date and time in UTC, from 1900 to 2100, such as \"2026-06-21T12:00:00Z\".");
   k.value("light.north_deg", l.north_deg,
-          "Direction of north in the world, from X towards Y: 90 means that X is east and Y is north.")
+          "Direction of north, from X towards Y; 90: X is east and Y is north.")
       .between(-360, 360)
       .unit("degree");
 }
@@ -36,16 +36,16 @@ void check_sky(const LightScenario& l, std::vector<Diagnostic>& mistakes) {
     mistakes.push_back({"", 0, key, message, expected, std::move(found), ""});
   };
   if (l.sky.type != SkyType::clear && l.spec.type != LightType::sun)
-    add("light.sky", "only the sun has another sky than the clear one", "light.type of \"sun\", or \"clear\"");
+    add("light.sky", "only the light type `sun` has this sky", "light.type of \"sun\", or \"clear\"");
   const bool by_time = l.latitude_deg || l.longitude_deg || l.time;
   if (!by_time) return;
   if (!l.latitude_deg || !l.longitude_deg || !l.time)
-    add("light.time", "the place of the sun needs place and time",
+    add("light.time", "the position of the sun needs place and time",
         "light.latitude_deg, light.longitude_deg and light.time, or none of them");
   if (l.spec.type != LightType::sun)
     add("light.time", "only the sun follows from place and time", "light.type of \"sun\"");
   if (l.random_rotation)
-    add("light.random_rotation", "the sun stands where place and time say", "false");
+    add("light.random_rotation", "place and time give the direction of the sun", "false");
   if (l.sky.type == SkyType::moonlit)
     add("light.time", "place and time give the sun, not the moon",
         "light.elevation_deg and light.azimuth_deg of the moon");

@@ -41,7 +41,7 @@ class Checker {
     if (!(spec_.rate_hz > 0) || !std::isfinite(spec_.rate_hz))
       add("trajectory.rate_hz", "out of range", "a number above 0", words(spec_.rate_hz));
     if (spec_.plan == Plan::avoid && spec_.waypoints.size() < 2)
-      add("trajectory.waypoints", "nowhere to go", "at least two waypoints for the plan \"avoid\"",
+      add("trajectory.waypoints", "the plan needs a destination", "at least two waypoints for the plan \"avoid\"",
           std::to_string(spec_.waypoints.size()));
     if (!(spec_.speed > 0) || !std::isfinite(spec_.speed))
       add("trajectory.speed", "out of range", "a number above 0", words(spec_.speed));
@@ -108,13 +108,13 @@ class Checker {
       if (w.t && *w.t != 0)
         add(waypoint_key(i, ".t"), "the first waypoint is the start", "0", words(*w.t));
       if (w.speed)
-        add(waypoint_key(i, ".speed"), "no way leads to the first waypoint", "nothing",
+        add(waypoint_key(i, ".speed"), "the first waypoint has no speed", "nothing",
             words(*w.speed));
       return;
     }
     if (w.t && spec_.plan == Plan::avoid)
       return add(waypoint_key(i, ".t"), "contradicts the plan \"avoid\"",
-                 "`speed`: how long the way is, is not known yet", words(*w.t));
+                 "`speed`, because the length of the path is not known yet", words(*w.t));
     const bool unknown = w.position_in_void || spec_.waypoints[i - 1].position_in_void;
     const double length =
         unknown ? kUnknownWay : distance(w.position, spec_.waypoints[i - 1].position);

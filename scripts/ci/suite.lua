@@ -1,5 +1,5 @@
--- What we ask of our own missions, made small: `rubble suite scripts/ci/suite.lua`.
--- A suite for your robot's missions looks the same; docs/how_to/reproducing.md says more.
+-- Checks bundled missions at a small size: `rubble suite scripts/ci/suite.lua`.
+-- A suite of your own missions looks the same: docs/how_to/my_ci.md.
 local small = { "pile.layers=1", "pile.pieces_per_layer=12", "camera.width=64", "camera.height=48",
                 "trajectory.rate_hz=1" }
 

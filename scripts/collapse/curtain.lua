@@ -1,4 +1,4 @@
--- A curtain wall: a panel of blocks that dropped straight down before the frame it hung on.
+-- A curtain wall: a panel of blocks that dropped straight down in front of its frame.
 return rubble.mission {
   seed = 4,
   pile = rubble.collapse.curtain {

@@ -1,4 +1,4 @@
--- Free placement: pieces put one by one, moved and turned together, covered like any mode.
+-- Free placement: pieces are placed one by one, moved and turned together, and covered with debris.
 return rubble.mission {
   seed = 4,
   pile = rubble.collapse.free {

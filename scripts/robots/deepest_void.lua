@@ -1,4 +1,4 @@
--- A vine robot grows to the deepest place that a ball of 35 cm reaches in the pile of the demo, 1.9 m under its
+-- A vine robot grows to the deepest place that a ball of 35 cm reaches in the pile of first_pile.lua, 1.9 m under its
 -- surface and 8 m from the mouth: `rubble voids` says where, and a camera on its tip sees the way.
 local make_pile = rubble.include("lean_to_pile.lua")
 

@@ -1,5 +1,5 @@
--- Two rovers are to drive the same square, one by the truth and one by its odometry, which counts turns that
--- its skidding wheels never made.
+-- Two rovers drive the same square: one is localized by ground truth, the other by its odometry, which drifts
+-- because the wheels skid in turns.
 local square = { { 0, 0 }, { 1.5, 0 }, { 1.5, 1.5 }, { 0, 1.5 }, { 0, 0.3 } }
 
 local function shifted(by)

@@ -1,5 +1,5 @@
--- A rover drives through a lean-to, past blocks that lie in its way, to a goal 6.5 m ahead. It knows of the void what
--- its 2-D scanner measures, and of itself what wheels and gyroscope say. What it sensed is what is recorded.
+-- A rover drives through a lean-to, past blocks that lie in its way, to a goal 6.5 m ahead. It knows only
+-- what its 2-D scanner, wheels and gyroscope measure. The recording has the same scans.
 local pile = rubble.collapse.lean_to {
   length = 3, width = 4, height = 1.7, debris = { layers = 1, pieces_per_layer = 30, margin = -0.4 },
 }

@@ -1,4 +1,4 @@
--- A crawler drives into the lean-to of the demo, over what lies on its floor, and backs out again.
+-- A crawler drives into the lean-to of first_pile.lua, over what lies on its floor, and backs out again.
 local turned
 
 local function in_and_out(sense)

@@ -1,4 +1,4 @@
--- A function that makes the pile of `make demo`, for missions with robots: two slabs that lean on a wall, and 1,200 pieces over them.
+-- A function that makes the pile of scripts/first_pile.lua, for missions with robots: two slabs that lean on a wall, and 1,200 pieces over them.
 -- The void under the slabs opens to -X.
 local mix = {
   { asset = "slab_1", weight = 1.5 }, { asset = "slab_2", weight = 1.5 }, { asset = "slab_3" },

@@ -1,4 +1,4 @@
--- A rover drives into the lean-to of the demo and backs out again.
+-- A rover drives into the lean-to of first_pile.lua and backs out again.
 local turned
 
 local function in_and_out(sense)

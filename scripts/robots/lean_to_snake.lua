@@ -1,4 +1,4 @@
--- A snake lies across the entrance of the lean-to of the demo, rolls in and rolls out again. Its waves go on where
+-- A snake lies across the entrance of the lean-to of first_pile.lua, rolls in and rolls out again. Its waves go on where
 -- they are when it turns back: that is what `phase` is for.
 local back_at, rate = 12, 4
 

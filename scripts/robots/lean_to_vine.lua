@@ -1,4 +1,4 @@
--- A vine robot grows into the lean-to of the demo, turns round in it and grows out again.
+-- A vine robot grows into the lean-to of first_pile.lua, turns round in it and grows out again.
 local make_pile = rubble.include("lean_to_pile.lua")
 
 return rubble.mission {

@@ -1,4 +1,4 @@
--- A vine robot grows into the lean-to of the demo, along the wall and over what lies there, with a camera and
+-- A vine robot grows into the lean-to of first_pile.lua, along the wall and over what lies there, with a camera and
 -- a lamp at its tip. Its tube does not slide along: only the tip moves.
 local placed = {
   { asset = "wall_stub", position = { -3.05, -1.32, 0.7 } },

@@ -1,4 +1,4 @@
--- A frame with a stair and a lift shaft whose open ground storey gives way in an earthquake: what stands beside the fall.
+-- A frame with a stair and a lift shaft. Its open ground storey gives way in an earthquake.
 return rubble.mission {
   seed = 2,
   packs = { "residential" },

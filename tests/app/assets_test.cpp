@@ -460,6 +460,33 @@ TEST(AssetsCheck, SimplifiesAHullOfMoreCornersThanAPartMayHave) {
   EXPECT_NE(ball.at("warnings").dump().find("more than the 1000 that a part may have"), std::string::npos);
 }
 
+// A drum of 530 sides, with more points than corners: each corner stands out by a millionth of its size.
+TEST(AssetsCheck, SimplifiesAHullWhoseCornersHardlyStandOut) {
+  const ScratchFolder scratch;
+  std::string obj;
+  const int rings = 10, sides = 530;
+  for (int i = 0; i < rings; ++i)
+    for (int k = 0; k < sides; ++k) {
+      char line[96];
+      const double round = 6.28318530717959 * k / sides;
+      std::snprintf(line, sizeof line, "v %.9f %.9f %.9f\n", 0.5 * std::cos(round), 0.5 * std::sin(round), 0.1 * i);
+      obj += line;
+    }
+  const auto at = [&](int i, int k) { return " " + std::to_string(i * sides + k % sides + 1); };
+  std::string bottom = "f", top = "f";
+  for (int k = 0; k < sides; ++k) {
+    for (int i = 0; i + 1 < rings; ++i) obj += "f" + at(i, k) + at(i, k + 1) + at(i + 1, k + 1) + at(i + 1, k) + "\n";
+    bottom += at(0, sides - k), top += at(rings - 1, k);
+  }
+  write_file(scratch / "cube.obj", obj + bottom + "\n" + top + "\n");
+  write_file(scratch / "pack.lua", one_asset("collision = \"hull\""));
+  const Outcome outcome = run_rubble("assets check --json " + scratch.path().string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  const Json drum = Json::parse(outcome.out).at("assets")[0];
+  EXPECT_LE(drum.at("most_corners"), 1000);
+  EXPECT_NE(drum.at("warnings").dump().find("its hull has 1060 corners"), std::string::npos) << drum.at("warnings");
+}
+
 TEST(Assets, AreFoundByTheNameOfABundledPack) {
   const ScratchFolder scratch;
   write_file(scratch / "m.lua",

@@ -157,7 +157,7 @@ TEST_F(Batch, TakesNoFiguresFromWhatWasAltered) {
   }
   EXPECT_IN("\n5,done,", index("a"));
   EXPECT_IN("was altered", again.err);
-  EXPECT_IN("is of another seed", again.err);
+  EXPECT_IN("belongs to another seed", again.err);
   EXPECT_IN("is not the pile of the manifest", again.err);
 }
 

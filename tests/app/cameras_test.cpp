@@ -299,7 +299,7 @@ TEST(CamerasInput, MistakesAreNamed) {
          "cameras.a.channels[1]: unknown channel `flows` (did you mean `flow`?)");
   expect("cameras = { a = { lens = { k1 = 0.1 } } }", "cameras.a.lens.model: a pinhole has no distortion");
   expect("cameras = { a = {}, b = { quality = \"reference\" } }",
-         "cameras.b.quality: another way to find colours than that of another camera");
+         "cameras.b.quality: differs from the quality of another camera");
 }
 
 TEST(CamerasInput, OverridesReachATableByName) {

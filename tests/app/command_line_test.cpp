@@ -201,6 +201,16 @@ TEST(CommandLine, HasEveryCommandThatIsWritten) {
   EXPECT_NE(help.out.find("Edge of a voxel (default: 0.05)"), std::string::npos) << help.out;
 }
 
+TEST(CommandLine, TheReferenceOfCommandsIsUpToDate) {
+  const Outcome page = run_rubble("manual --markdown");
+  EXPECT_EQ(page.exit_code, 0) << page.err;
+  EXPECT_TRUE(page.out == read_file(RUBBLE_SOURCE_DIR "/docs/reference/commands.md"))
+      << "run: cmake --build build/release --target command_reference";
+  for (const char* part : {"## `rubble eval map`\n", "|`--voxel METRES`|Edge of a voxel (default: 0.05).|", "`rubble run mission [OPTION] ...`",
+                           "; 0..256.|", "|`4`|"})
+    EXPECT_NE(page.out.find(part), std::string::npos) << part;
+}
+
 // What is printed is a result.
 TEST(CommandLine, NoticesAStandardOutputThatTakesNothing) {
   for (const char* out : {">/dev/full", ">&-"}) {

@@ -256,7 +256,7 @@ TEST_F(EvalSfm, SaysWhatIsWrongWithTheInput) {
   has(error(dataset() + " --model bad"), "bad/images.txt:3: the line ends early");
   images.replace(images.find("000001.png"), 10, "000099.png");
   write_file(dataset() + "/bad/images.txt", images);
-  has(error(dataset() + " --model bad"), "has an image that the dataset has not");
+  has(error(dataset() + " --model bad"), "has an image that is not in the dataset");
   images.replace(images.find("000099.png"), 10, "000000.png");
   write_file(dataset() + "/bad/images.txt", images);
   has(error(dataset() + " --model bad"), "has an image twice");

@@ -282,9 +282,9 @@ TEST(LidarInput, MistakesAreNamed) {
   };
   expect("lidars = { top = { model = \"vlp61\" } }", "m.lua:2: lidars.top.model: ");
   expect("lidars = { top = { rate = 5 } }", "lidars.top.rate: unknown key `rate` (did you mean `rate_hz`?)");
-  expect("lidars = { top = { channels = 64 } }", "lidars.top.channels: this model has no choice of them");
-  expect("lidars = { top = { model = \"os1\", columns = 600 } }", "lidars.top.columns: no such sensor is made");
-  expect("lidars = { top = { min_range = 50, max_range = 20 } }", "lidars.top.max_range: nothing is within reach");
+  expect("lidars = { top = { channels = 64 } }", "lidars.top.channels: this model has a fixed number");
+  expect("lidars = { top = { model = \"os1\", columns = 600 } }", "lidars.top.columns: the model has no such version");
+  expect("lidars = { top = { min_range = 50, max_range = 20 } }", "lidars.top.max_range: the range is empty");
   expect("lidars = { Top = {} }", "lidars.Top: not a name of a LiDAR");
   expect("lidars = { a = { topic = \"/imu\" } }", "lidars.a.topic: the name is taken");
   expect("outputs = { pcd = true }", "outputs.pcd: there is nothing to write");

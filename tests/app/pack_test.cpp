@@ -84,7 +84,7 @@ TEST(Splits, RefusesSharesThatAreNone) {
       parse_shares(text);
       ADD_FAILURE() << text << " was taken";
     } catch (const InputError& error) {
-      EXPECT_IN("--splits: no shares of a dataset: expected three whole numbers", std::string(error.what()));
+      EXPECT_IN("--splits: not shares of a dataset: expected three whole numbers", std::string(error.what()));
     }
   }
 }

@@ -52,5 +52,22 @@ TEST_F(PublicFiles, ThatAreNotThereAreSkipped) {
   EXPECT_NE(try_files("0.2", here()).out.find("SKIPPED"), std::string::npos);
 }
 
+// trimesh turns no COLLADA file to the axis that it states, and bends no skin.
+TEST(PublicFilesJudge, TakesAxesAndSkinsAsTheFilesAskForThem) {
+  const ScratchFolder scratch;
+  write_file(scratch / "up.dae", "<COLLADA><asset><up_axis>Y_UP</up_axis></asset></COLLADA>");
+  write_file(scratch / "z.dae", "<COLLADA><asset><up_axis>Z_UP</up_axis></asset></COLLADA>");
+  write_file(scratch / "skin.gltf", "{\"skins\": [ {\"joints\": [0]} ]}");
+  write_file(scratch / "plain.gltf", "{\"skins\": []}");
+  write_file(scratch / "t.py",
+             "import sys\nfrom pathlib import Path\nsys.path.insert(0, '" RUBBLE_SOURCE_DIR "/tests/files')\n"
+             "from run_files import as_asked\n"
+             "for name in 'up.dae', 'z.dae', 'skin.gltf', 'plain.gltf':\n"
+             "    print(as_asked('meshes', {'size_m': [1, 2, 3]}, Path(sys.path[1], name)).get('size_m'))\n");
+  const std::string command = "/usr/bin/python3 '" + (scratch / "t.py") + "' > '" + (scratch / "out") + "' 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(read_file(scratch / "out"), "[1, 3, 2]\n[1, 2, 3]\nNone\n[1, 2, 3]\n");
+}
+
 }  // namespace
 }  // namespace rubble::testing

@@ -113,6 +113,23 @@ TEST(Resume, ContinuesWhatASignalStoppedAndSaysHow) {
   EXPECT_IN("is finished", run_rubble("resume " + folder).err);
 }
 
+// A run that was killed after it had written meshes into a folder of their own.
+TEST(Resume, WritesFoldersOfMeshesAnew) {
+  const ScratchFolder scratch;
+  const std::string more = " --set outputs.meshes=sdf --set camera.width=400 --set camera.height=300";
+  run_tiny(scratch, "whole", more);
+  const std::string folder = scratch / "stopped";
+  const auto has_meshes = [&] { return fs::exists(folder + "/sdf"); };
+  const Outcome killed =
+      run_rubble_and_signal("run " + (scratch / "tiny.lua") + more + " --out " + folder, has_meshes, SIGKILL);
+  if (killed.exit_code == 0) GTEST_SKIP() << "it was quicker";
+  ASSERT_TRUE(fs::exists(folder + "/sdf/pile.sdf"));
+  const Outcome resumed = run_rubble("resume " + folder);
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(reproducible(folder), reproducible(scratch / "whole"));
+  EXPECT_EQ(read_file(folder + "/sdf/pile.sdf"), read_file(scratch / "whole/sdf/pile.sdf"));
+}
+
 // A pile.bin that this run did not make: of another seed, with and without the note of that one, or
 // altered. It is settled anew, and the files are those of a run that was left alone.
 TEST(Resume, TakesNoPileOfAnotherSeed) {

@@ -57,7 +57,7 @@ TEST_F(RobotContents, AreFoundAgain) {
 
 TEST_F(RobotContents, AnotherUrdfFileOrMeshIsNamed) {
   write_file(folder_ / "r.urdf", urdf_of("3"));
-  EXPECT_NE(recall(made_).find("the URDF file \"r.urdf\" or a mesh of it is another one now"), std::string::npos) << recall(made_);
+  EXPECT_NE(recall(made_).find("the URDF file \"r.urdf\" or one of its meshes has changed"), std::string::npos) << recall(made_);
   write_file(folder_ / "r.urdf", urdf_of("1"));
   write_file(folder_ / "part.stl", std::string(kMesh) + "\n");
   EXPECT_NE(recall(made_).find("another one now"), std::string::npos) << recall(made_);

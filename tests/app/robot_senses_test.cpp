@@ -314,7 +314,7 @@ TEST(RobotSenses, WhatCannotBeSensedIsAMistakeWithItsKey) {
       {robot + "  cameras = { eye = { ride = { robot = \"r\" }, lens = { k1 = 0.1 } } } }", "cameras.eye.lens"},
       {"return rubble.mission { pile = { layers = 0 }, lidars = { eye = {} },\n"
        "  robots = { rubble.robot.rover { position = { 0, 0, 0.001 }, senses = { \"eye\" } } } }",
-       "robots[1].senses: nobody is told"},
+       "robots[1].senses: there is no controller"},
       {"return rubble.mission { pile = { layers = 0 }, camera = { lens = { model = \"plumb_bob\", k1 = 0.1 } },\n"
        "  trajectory = { ride = { robot = \"r\" } }, robots = { rubble.robot.rover { name = \"r\",\n"
        "    position = { 0, 0, 0.001 }, senses = { \"camera\" }, control = function() return {} end } } }",

@@ -55,7 +55,7 @@ TEST(Robots, RunsHaveTheSameBitsOnAnyNumberOfThreadsAndAreVerified) {
   EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
 }
 
-// The mission whose cost docs/reference/robots.md states.
+// The mission whose cost docs/development/robots.md states.
 TEST(Robots, ASnakeAmongManyContactsHasTheSameBitsOnAnyNumberOfThreads) {
   const ScratchFolder scratch;
   std::string tracks[2];
@@ -290,9 +290,9 @@ TEST(Robots, AVineGrowsAlongAPathAndRetracts) {
   EXPECT_LT(distance(vector_in(tip.front(), 1), vector_in(tip.back(), 1)), 0.005);
 }
 
-// Missions over the pile of the demo, which settles once for all of them. Their robots are driven as a run does it, but
+// Missions over the pile of first_pile.lua, which settles once for all of them. Their robots are driven as a run does it, but
 // no picture is taken: most of such a run is the light of 1,200 pieces.
-class RobotsInTheDemo : public ::testing::Test {
+class RobotsInTheFirstPile : public ::testing::Test {
  protected:
   // Of mission and pile.
   static std::string pile_of(const ResolvedMission& mission) {
@@ -331,15 +331,15 @@ class RobotsInTheDemo : public ::testing::Test {
   ScratchFolder scratch_;
 };
 
-TEST_F(RobotsInTheDemo, ACrawlerGoesIntoTheLeanToAndOut) { expect_in_and_out("crawler", -1.7); }
-TEST_F(RobotsInTheDemo, ARoverGoesIntoTheLeanToAndOut) { expect_in_and_out("rover", -2.6); }
-TEST_F(RobotsInTheDemo, ASnakeRollsIntoTheLeanToAndOut) { expect_in_and_out("snake", -3.8); }
-TEST_F(RobotsInTheDemo, AVineGrowsIntoTheLeanToAndOut) { expect_in_and_out("vine", -3.3); }
+TEST_F(RobotsInTheFirstPile, ACrawlerGoesIntoTheLeanToAndOut) { expect_in_and_out("crawler", -1.7); }
+TEST_F(RobotsInTheFirstPile, ARoverGoesIntoTheLeanToAndOut) { expect_in_and_out("rover", -2.6); }
+TEST_F(RobotsInTheFirstPile, ASnakeRollsIntoTheLeanToAndOut) { expect_in_and_out("snake", -3.8); }
+TEST_F(RobotsInTheFirstPile, AVineGrowsIntoTheLeanToAndOut) { expect_in_and_out("vine", -3.3); }
 
 // The tip ends within the ball that `rubble voids` says gets there, and no deeper place is in any void.
-class NightlyRobotsInTheDemo : public RobotsInTheDemo {};
+class NightlyRobotsInTheFirstPile : public RobotsInTheFirstPile {};
 
-TEST_F(NightlyRobotsInTheDemo, AVineGrowsToTheDeepestVoid) {
+TEST_F(NightlyRobotsInTheFirstPile, AVineGrowsToTheDeepestVoid) {
   drive("deepest_void.lua");
   if (HasFatalFailure()) return;
   const Outcome settled = run_rubble("settle scripts/robots/deepest_void.lua --quiet --out " + (scratch_ / "pile"));
@@ -379,10 +379,10 @@ TEST(Robots, SensorsOnRobotsThatCannotCarryThemAreMistakesWithTheirLine) {
       {"cameras = { a = { ride = { robot = \"q\" } } }", "m.lua:3: cameras.a.ride.robot: no robot has this name"},
       {"cameras = { a = { ride = { robot = \"r\", link = \"mast\" } } }",
        "m.lua:3: cameras.a.ride.link: the robot has no such link: expected one of base_link"},
-      {"imu = { ride = { link = \"mast\" } }", "m.lua:3: imu.ride.link: a link of no robot"},
+      {"imu = { ride = { link = \"mast\" } }", "m.lua:3: imu.ride.link: a link without a robot"},
       {"imu = true, imus = { a = {} }", "m.lua:3: imu.on: contradicts imus"},
       {"cameras = { a = { ride = { robot = \"r\" } } }, imu = true",
-       "m.lua:3: cameras: none is on the rig, whose pose is recorded with frames"},
+       "m.lua:3: cameras: no camera is on the rig, but an IMU or LiDAR is"},
       {"outputs = { euroc = true }, cameras = { a = { ride = { robot = \"r\" } }, b = {} }",
        "m.lua:3: outputs.euroc: the format has one moving body"},
   };
@@ -418,7 +418,7 @@ TEST(Robots, ControllersThatNeverReturnOrAskTooMuchAreMistakesWithTheirLine) {
   } cases[] = {{"while true do end", "m.lua:3"},
                {"return { torques = { 1e9 } }", "robots[1].control: torques"},
                {"return { linear = 80 }", "robots[1].control: linear"},
-               {"return 5", "robots[1].control: what the function returns cannot be followed"},
+               {"return 5", "robots[1].control: the function returned no valid commands"},
                {"error(\"no idea\")", "no idea"}};
   for (const auto& c : cases) {
     write_file(scratch / "m.lua",

@@ -184,10 +184,10 @@ TEST(Victims, MistakesAreNamed) {
   write_file(folder / "m.lua", kMission);
   const Outcome many = run_rubble("settle " + (folder / "m.lua") + " --set victims.count=40 --quiet --out " + (folder / "a"));
   EXPECT_EQ(many.exit_code, 1);
-  EXPECT_NE(many.err.find("victims.count: the voids have no room for so many: expected at most "), std::string::npos)
+  EXPECT_NE(many.err.find("victims.count: the voids cannot hold so many victims: expected at most "), std::string::npos)
       << many.err;
   const Outcome track = run_rubble("check " + (folder / "m.lua") + " --set outputs.track=true");
-  EXPECT_NE(track.err.find("victims.count: victims lie in the pile only when it has settled"), std::string::npos);
+  EXPECT_NE(track.err.find("victims.count: victims are placed after the pile has settled"), std::string::npos);
   const Outcome word = run_rubble("check " + (folder / "m.lua") + " --set victims.difficulty=deep");
   EXPECT_NE(word.err.find("\"easy\", \"medium\""), std::string::npos) << word.err;
 }
@@ -367,10 +367,10 @@ TEST_F(SearchBench, MistakesAreNamed) {
     EXPECT_EQ(outcome.exit_code, 1) << options;
     EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " is not in\n" << outcome.err;
   };
-  expect("--seeds 2", "--agent: nobody searches");
+  expect("--seeds 2", "--agent: no agent is given");
   expect("--seeds 2 --baseline clever", "--baseline: no such baseline");
   expect("--seeds two --baseline random", "--seeds");
-  expect("--baseline random --set victims.count=0", "victims.count: nobody to search for");
+  expect("--baseline random --set victims.count=0", "victims.count: there are no victims");
   expect("--seeds 2 --baseline random --set victims.radius=0.9", "no pile of these seeds has room");
 }
 

@@ -1,87 +1,15 @@
-// Robots from URDF files: what is read, against closed forms and against the bundled robots written as URDF;
-// and files that are wrong.
+// Robots from URDF files: what is read, against closed forms, and files that are wrong.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/robots/mission_robot.h"
-#include "app/robots/robot_files.h"
-#include "app/robots/robot_log.h"
-#include "io/robot/urdf_reader.h"
-#include "io/robot/urdf_writer.h"
-#include "kernel/base/error.h"
-#include "kernel/robot/bundled.h"
-#include "kernel/robot/gaits.h"
+#include "kernel/geometry/shape.h"
 #include "kernel/robot/looks.h"
-#include "kernel/robot/odometry.h"
-#include "kernel/world/world.h"
-#include "scripting/scenario/scenario.h"
-#include "tests/app/program.h"
+#include "tests/app/urdf_robots.h"
 
 namespace rubble::testing {
 namespace urdf_test {
-
-// A cart: a footprint without mass, a body with a mast fixed to it, a gripper whose fingers mimic each other.
-const char* const kCart = R"(<?xml version="1.0"?>
-<robot name="cart">
-  <link name="base_footprint"/>
-  <link name="base_link">
-    <inertial><origin xyz="0 0 0.1"/><mass value="8"/>
-      <inertia ixx="0.1" ixy="0" ixz="0" iyy="0.2" iyz="0" izz="0.25"/></inertial>
-    <collision><origin xyz="0 0 0.1"/><geometry><box size="0.4 0.3 0.1"/></geometry></collision>
-  </link>
-  <joint name="footprint" type="fixed"><parent link="base_footprint"/><child link="base_link"/>
-    <origin xyz="0 0 0.05"/></joint>
-  <link name="mast">
-    <inertial><origin xyz="0 0 0.5"/><mass value="2"/>
-      <inertia ixx="0.04" ixy="0" ixz="0" iyy="0.04" iyz="0" izz="0.001"/></inertial>
-    <visual><geometry><cylinder radius="0.02" length="1"/></geometry></visual>
-  </link>
-  <joint name="mast_joint" type="fixed"><parent link="base_link"/><child link="mast"/>
-    <origin xyz="0.1 0 0.2" rpy="0 0 1.5707963267948966"/></joint>
-  <link name="finger_a"><inertial><mass value="0.1"/>
-    <inertia ixx="1e-4" ixy="0" ixz="0" iyy="1e-4" iyz="0" izz="1e-4"/></inertial></link>
-  <joint name="slide_a" type="prismatic"><parent link="base_link"/><child link="finger_a"/>
-    <origin xyz="0.3 0.05 0.2"/><axis xyz="0 2 0"/>
-    <limit lower="-0.01" upper="0.04" effort="20" velocity="0.2"/>
-    <dynamics damping="3" friction="0.5"/></joint>
-  <link name="finger_b"><inertial><mass value="0.1"/>
-    <inertia ixx="1e-4" ixy="0" ixz="0" iyy="1e-4" iyz="0" izz="1e-4"/></inertial></link>
-  <joint name="slide_b" type="prismatic"><parent link="base_link"/><child link="finger_b"/>
-    <origin xyz="0.3 -0.05 0.2"/><axis xyz="0 -1 0"/>
-    <limit lower="-0.01" upper="0.04" effort="20" velocity="0.2"/>
-    <mimic joint="slide_a" multiplier="0.5" offset="0.01"/></joint>
-  <transmission name="t"/>
-</robot>
-)";
-
-MissionRobot read_robot(const std::string& text, const RobotItem& item = {}) {
-  const ScratchFolder folder;
-  write_file(folder / "a.urdf", text);
-  RobotItem robot = item;
-  robot.urdf = "a.urdf";
-  MeshImporter importer;
-  return make_mission_robot(robot, {folder.path().string()}, "robots[1]", importer);
-}
-
-// The first mistake in it, from "a.urdf" on.
-std::string mistake_in(const std::string& text, const RobotItem& item = {}) {
-  try {
-    read_robot(text, item);
-  } catch (const InputError& error) {
-    const std::string all = error.what();
-    const std::size_t at = all.find("a.urdf");
-    return at == std::string::npos || all.find("robots[1]") == 0 ? all : all.substr(at);
-  }
-  return "none";
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return text.replace(at, what.size(), by);
-}
 
 TEST(Urdf, FixedLinksAreOneBodyWithTheirCommonMassAndInertia) {
   const MissionRobot cart = read_robot(kCart);
@@ -142,31 +70,6 @@ TEST(Urdf, MistakesAreNamedWithFileAndLine) {
                 .find("a.urdf:26: slide_b: mimics a joint that does not move"), std::string::npos);
   EXPECT_NE(mistake_in(replaced(kCart, "mimic joint=\"slide_a\"", "mimic joint=\"slide_b\""))
                 .find("slide_b: mimics a joint that does not move"), std::string::npos);
-}
-
-// A base of 5 kg, and an arm on a joint: attributes of the joint, and what is within joint and arm.
-std::string arm(const std::string& type, const std::string& joint, const std::string& link, const std::string& base = "base_link") {
-  return "<robot name=\"r\">\n<link name=\"" + base + "\"><collision><geometry><box size=\"0.4 0.2 0.1\"/></geometry></collision>"
-         "<inertial><mass value=\"5\"/><inertia ixx=\"0.1\" iyy=\"0.1\" izz=\"0.1\"/></inertial></link>\n"
-         "<link name=\"arm\">" + link + "</link>\n<joint name=\"j\" type=\"" + type + "\"><parent link=\"" + base +
-         "\"/><child link=\"arm\"/><origin xyz=\"0.2 0 0.3\"/><axis xyz=\"0 1 0\"/>" + joint + "</joint>\n</robot>\n";
-}
-const char* const kArmMass = "<inertial><mass value=\"0.5\"/><inertia ixx=\"0.01\" iyy=\"0.01\" izz=\"0.01\"/></inertial>";
-
-bool warns(const MissionRobot& robot, const std::string& part) {
-  return std::any_of(robot.warnings.begin(), robot.warnings.end(),
-                     [&](const std::string& warning) { return warning.find(part) != std::string::npos; });
-}
-
-// The robot in a world without ground for some steps.
-RobotState state_after(const RobotModel& model, int steps) {
-  WorldOptions options;
-  options.threads = 1;
-  World world({}, options);
-  world.set_step(1.0 / 240, 4);
-  const int robot = world.add_robot(model, {{}, {0, 0, 3}});
-  for (int i = 0; i < steps; ++i) world.step();
-  return world.robot_state(robot);
 }
 
 TEST(Urdf, JointsStartWithinRangesWithoutZeroAndWhereTheMissionPutsThem) {
@@ -246,6 +149,12 @@ TEST(Urdf, MomentsThatNoBodyHasBecomeTheNearestPossible) {
   EXPECT_NEAR(turned.rows[1].y, 2.25075e-4, 1e-12);
   EXPECT_NEAR(turned.rows[2].z, 1.5015e-4, 1e-12);
   EXPECT_EQ(turned.rows[0].y, turned.rows[1].x);
+  // A rod without thickness.
+  const Mat3 rod = inertia_of("ixx=\"0\" iyy=\"2e-4\" izz=\"2e-4\"");
+  EXPECT_NEAR(rod.rows[0].x, 4e-7, 1e-12);
+  EXPECT_NEAR(rod.rows[1].y, 2.002e-4, 1e-12);
+  EXPECT_NE(mistake_in(arm("continuous", "", "<inertial><mass value=\"1\"/><inertia ixx=\"-1e-5\" iyy=\"2e-4\" izz=\"2e-4\"/></inertial>")),
+            "none");
 }
 
 TEST(Urdf, LinksWithoutCollisionOrMassMoveAndTouchNothing) {
@@ -290,7 +199,7 @@ TEST(Urdf, ALinkCalledWorldFixesTheRobot) {
 TEST(Urdf, MirroredMeshesKeepTheirOutside) {
   const ScratchFolder folder;
   write_file(folder / "t.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
-  for (const char* scale : {"1 1 1", "1 -1 1", "-1 -1 -1", "-1 -1 1", "0.5 -2 1"}) {
+  for (const char* scale : {"1 1 1", "1 -1 1", "-1 -1 -1", "-1 -1 1", "0.5 -2 1", "1 1 1 1"}) {
     const std::string mesh = std::string("<geometry><mesh filename=\"t.obj\" scale=\"") + scale + "\"/></geometry>";
     write_file(folder / "a.urdf", "<robot name=\"r\"><link name=\"a\"><visual>" + mesh + "</visual><collision>" + mesh +
                                       "</collision><inertial><mass value=\"1\"/></inertial></link></robot>");
@@ -299,62 +208,8 @@ TEST(Urdf, MirroredMeshesKeepTheirOutside) {
     MeshImporter importer;
     const MissionRobot made = make_mission_robot(robot, {folder.path().string()}, "robots[1]", importer);
     EXPECT_NEAR(calc_volume_properties(make_link_mesh(made.model.links[0], "")).volume, 1, 1e-6) << scale;
+    EXPECT_EQ(warns(made, "a.urdf:1: `scale` of <mesh> has four numbers"), scale == std::string("1 1 1 1"));
   }
-}
-
-TEST(Urdf, WrittenRobotsKeepMimicsFramesAndMotors) {
-  const ScratchFolder folder;
-  const MissionRobot cart = read_robot(kCart);
-  write_robot_description(folder.path().string(), "cart", cart.model);
-  RobotItem item;
-  item.urdf = "cart.urdf";
-  MeshImporter importer;
-  const MissionRobot again = make_mission_robot(item, {folder.path().string()}, "robots[1]", importer);
-  ASSERT_EQ(again.model.mimics.size(), 1U);
-  EXPECT_EQ(again.model.mimics[0].multiplier, 0.5);
-  EXPECT_EQ(again.model.mimics[0].offset, 0.01);
-  ASSERT_EQ(again.model.frames.size(), cart.model.frames.size());
-  EXPECT_EQ(again.model.joints[0].motor.effort, 20);
-  // Meshes as ROS looks for them; efforts of endless joints; names beyond ASCII.
-  RobotModel model = make_rover();
-  model.links[0].name = "L\xc3\xb6we";
-  model.joints[0].motor = {};
-  const std::string text = robot_to_urdf(model, "rover", "package://rubble_robots/rover_meshes");
-  EXPECT_NE(text.find("<link name=\"L\xc3\xb6we\">"), std::string::npos);
-  EXPECT_NE(text.find("filename=\"package://rubble_robots/rover_meshes/"), std::string::npos);
-  const std::string wheel = text.substr(text.find("<joint name=\"" + model.joints[0].name));
-  EXPECT_EQ(wheel.substr(0, wheel.find("</joint>")).find("effort"), std::string::npos) << "no motor, no limit";
-  const std::string driven = text.substr(text.find("<joint name=\"" + model.joints[1].name));
-  EXPECT_NE(driven.substr(0, driven.find("</joint>")).find("<limit effort=\"6\""), std::string::npos);
-  model.fixed_base = true;
-  EXPECT_NE(robot_to_urdf(model, "rover", "m").find("<parent link=\"world\"/><child link=\"L\xc3\xb6we\"/>"), std::string::npos);
-}
-
-// A camera's link of the robot beside the frame of the mission's camera.
-TEST(Urdf, FramesOfRobotsDoNotClashWithThoseOfSensors) {
-  Scenario scenario;
-  scenario.robots.resize(1);
-  scenario.robots[0].name = "bot";
-  const auto with = [](std::string text, const std::string& name) {
-    for (std::size_t at = 0; (at = text.find("\"mast\"", at)) != std::string::npos; ++at) text.replace(at, 6, "\"" + name + "\"");
-    return text;
-  };
-  const auto record_of = [&](const std::string& name) {
-    return describe_robots(scenario, {read_robot(with(kCart, name))}).front();
-  };
-  EXPECT_EQ(record_of("mast").frame, "");
-  EXPECT_EQ(record_of("base_mast").frame_of(0), "base_footprint");
-  for (const char* taken : {"camera_link", "camera_optical_frame", "odom", "world"}) {
-    const RobotRecord record = record_of(taken);
-    EXPECT_EQ(record.frame, "bot/") << taken;
-    EXPECT_EQ(record.topic, "") << "topics are not frames";
-  }
-  EXPECT_EQ(record_of("/X1/mast").frame_named("/X1/mast"), "X1/mast") << "tf2 refuses slashes in front";
-  EXPECT_EQ(record_of("L\xc3\xb6we").frame_named("L\xc3\xb6we"), "L\xc3\xb6we");
-  scenario.imu.frame_id = "bot/mast";
-  EXPECT_EQ(record_of("mast").frame, "") << "bot/mast is another frame than mast";
-  scenario.imu.frame_id = "bot/camera_link";
-  EXPECT_THROW(record_of("camera_link"), InputError);
 }
 
 TEST(Urdf, HostileFilesAreMistakes) {
@@ -364,43 +219,6 @@ TEST(Urdf, HostileFilesAreMistakes) {
   EXPECT_NE(mistake_in("<robot name=\"x\"><link name=\"a\"/><link name=\"a\"/></robot>"), "none");
   EXPECT_NE(mistake_in(replaced(kCart, "0.4 0.3 0.1", "nan 0.3 0.1")), "none");
   EXPECT_NE(mistake_in(replaced(kCart, "0.4 0.3 0.1", "-1 0.3 0.1")), "none");
-}
-
-RobotItem rover_item() {
-  RobotItem item;
-  item.left_wheels = {"front_left_wheel_joint", "rear_left_wheel_joint"};
-  item.right_wheels = {"front_right_wheel_joint", "rear_right_wheel_joint"};
-  item.wheel_radius = kRoverWheelRadius;
-  item.friction = 0.8;
-  return item;
-}
-
-// The bundled rover as the URDF that a run writes, read again.
-MissionRobot rover_from_file(const std::string& folder, const RobotItem& like) {
-  const RobotModel model = make_rover();
-  write_robot_description(folder, "rover", model);
-  RobotItem item = like;
-  item.urdf = "rover.urdf";
-  MeshImporter importer;
-  return make_mission_robot(item, {folder}, "robots[1]", importer);
-}
-
-TEST(Urdf, ARobotThatWasWrittenIsReadAsItWas) {
-  const ScratchFolder folder;
-  const RobotModel model = make_rover();
-  const MissionRobot read = rover_from_file(folder.path().string(), rover_item());
-  ASSERT_EQ(read.model.links.size(), model.links.size());
-  for (std::size_t i = 0; i < model.links.size(); ++i) {
-    const auto at = std::find_if(read.model.links.begin(), read.model.links.end(),
-                                 [&](const RobotLink& link) { return link.name == model.links[i].name; });
-    ASSERT_NE(at, read.model.links.end());
-    EXPECT_NEAR(at->mass, model.links[i].mass, 1e-12);
-    EXPECT_LT(distance(at->centre_of_mass, model.links[i].centre_of_mass), 1e-12);
-    for (int k = 0; k < 3; ++k)
-      EXPECT_LT(distance(at->inertia.rows[k], model.links[i].inertia.rows[k]), 1e-9);
-    EXPECT_EQ(at->parts.size(), model.links[i].parts.size());
-  }
-  EXPECT_NEAR(read.model.sides.distance, kRoverTrackDistance, 1e-9);
 }
 
 // Materials of the file, colours of meshes, and neither; each link has one mesh of them.
@@ -432,115 +250,6 @@ TEST(Urdf, VisualsKeepTheColoursOfTheirFiles) {
   ASSERT_EQ(over.surface_names.size(), 2u);
   EXPECT_EQ(std::count(over.surfaces.begin(), over.surfaces.end(), 1), 4) << "a material of the file is over all of a mesh";
   EXPECT_NEAR(double(over.paint_of(1)->colour.y), 0.2140, 1e-3) << "it is sRGB";
-}
-
-// And drives as far.
-TEST(Urdf, ARoverFromAFileDrivesAsTheBundledOne) {
-  const ScratchFolder folder;
-  const MissionRobot read = rover_from_file(folder.path().string(), rover_item());
-  const RobotModel bundled = make_rover();
-  double way[2] = {0, 0};
-  const RobotModel* models[2] = {&bundled, &read.model};
-  for (int k = 0; k < 2; ++k) {
-    WorldOptions options;
-    options.threads = 1;
-    World world({}, options);
-    world.set_step(1.0 / 240, 4);
-    const int robot = world.add_robot(*models[k], {{}, {0, 0, 0.001}});
-    for (int i = 0; i < 480; ++i) {
-      world.set_command(robot, drive_wheels(*models[k], {0.5, 0}));
-      world.step();
-    }
-    way[k] = world.robot_state(robot).links[0].world_from_link.translation.x;
-  }
-  EXPECT_GT(way[0], 0.9);
-  EXPECT_NEAR(way[1], way[0], 0.02) << "gains are softer: it gathers speed later";
-}
-
-TEST(Urdf, WheelsThatAreNoneAreMistakesOfTheMission) {
-  const ScratchFolder folder;
-  RobotItem item = rover_item();
-  item.left_wheels[0] = "fifth_wheel";
-  try {
-    rover_from_file(folder.path().string(), item);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.diagnostics()[0].key, "robots[1].left_wheels");
-    EXPECT_EQ(error.diagnostics()[0].found, "\"fifth_wheel\"");
-  }
-  item = rover_item();
-  std::swap(item.left_wheels, item.right_wheels);
-  EXPECT_THROW(rover_from_file(folder.path().string(), item), InputError);
-}
-
-// Through the program: a mission with a file beside it, verified from its manifest.
-TEST(Urdf, AMissionDrivesARobotFromAFile) {
-  const ScratchFolder scratch;
-  write_robot_description(scratch.path().string(), "rover", make_rover());
-  write_file(scratch / "m.lua", R"(return rubble.mission { pile = { layers = 0 },
-    robots = { { urdf = "rover.urdf", name = "buggy", position = { 0, 0, 0.001 }, friction = 0.8,
-      left_wheels = { "front_left_wheel_joint", "rear_left_wheel_joint" },
-      right_wheels = { "front_right_wheel_joint", "rear_right_wheel_joint" }, wheel_radius = 0.098,
-      drive = { { t = 0, linear = 0.5 } } } },
-    robot_run = { duration = 2 }, camera = { width = 32, height = 32 },
-    trajectory = { rate_hz = 2, ride = { robot = "buggy", position = { 0.3, 0, 0.3 } } },
-    outputs = { bag = false, rawlog = false, simplemap = false } })");
-  const Outcome run = run_rubble("run " + (scratch / "m.lua") + " --out " + (scratch / "out"));
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_NE(read_file(scratch / "out/robots/buggy_odometry.csv").find("slip_left"), std::string::npos);
-  const Outcome verified = run_rubble("verify " + (scratch / "out"));
-  EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
-}
-
-// One run with much of what files of the field have: Latin-1, a transmission, a mast without collision, a knee whose range
-// has no 0, a link with the name of the camera's frame.
-TEST(Urdf, AMissionDrivesARobotOfTheField) {
-  const ScratchFolder scratch;
-  const std::string moves = "<limit lower=\"-2.6\" upper=\"-0.8\" effort=\"20\" velocity=\"15\"/>";
-  std::string text = arm("revolute", moves, "<visual><geometry><box size=\"0.1 0.1 0.4\"/></geometry></visual>" + std::string(kArmMass));
-  text = "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>" + replaced(text, "robot name=\"r\"", "robot name=\"R\xe4upe\"");
-  text = replaced(text, "</robot>", "<link name=\"camera_link\"/><joint name=\"c\" type=\"fixed\"><parent link=\"base_link\"/>"
-                  "<child link=\"camera_link\"/></joint><transmission name=\"t\"><joint name=\"j\"/></transmission></robot>");
-  write_file(scratch / "r.urdf", text);
-  write_file(scratch / "m.lua", R"(return rubble.mission { pile = { layers = 0 },
-    robots = { { urdf = "r.urdf", name = "bot", position = { 0, 0, 0.4 }, start = { j = -1 } } },
-    robot_run = { duration = 0.1 }, camera = { width = 16, height = 16 },
-    trajectory = { rate_hz = 0.1, ride = { robot = "bot", link = "camera_link" } },
-    outputs = { rawlog = false, simplemap = false } })");
-  const Outcome run = run_rubble("run " + (scratch / "m.lua") + " --out " + (scratch / "out"));
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(text.find("<transmission")), '\n');
-  EXPECT_NE(run.err.find("r.urdf:" + std::to_string(line) + ": <transmission> is left out"), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("its link `camera_link` has the name of another frame of the mission"), std::string::npos) << run.err;
-  EXPECT_NE(read_file(scratch / "out/robots/robots.json").find("\"model\": \"R\xc3\xa4upe\""), std::string::npos);
-  EXPECT_NE(read_file(scratch / "out/robots/package.xml").find("<name>rubble_robots</name>"), std::string::npos);
-  const std::string joints = read_file(scratch / "out/robots/bot_joints.csv");
-  EXPECT_NE(joints.find("j_position"), std::string::npos);
-  EXPECT_NE(joints.find(",-1,"), std::string::npos) << "the start: " << joints;
-  // More values than motors.
-  write_file(scratch / "n.lua", replaced(read_file(scratch / "m.lua"), "start = { j = -1 }", "drive = { { t = 0, joints = { -1, 2 } } }"));
-  const Outcome more = run_rubble("run " + (scratch / "n.lua") + " --out " + (scratch / "more"));
-  EXPECT_EQ(more.exit_code, 1);
-  EXPECT_NE(more.err.find("n.lua:2: robots[1].drive[1].joints: more values than the robot has motors at joints: expected 1 at most: j, "
-                          "found 2"), std::string::npos) << more.err;
-}
-
-// Where a user stands most often: files that the mission names have no folder in their path then.
-TEST(Urdf, AMissionIsRunFromItsOwnFolder) {
-  const ScratchFolder scratch;
-  write_robot_description(scratch.path().string(), "rover", make_rover());
-  write_file(scratch / "hill.obj", "v -4 -4 0.1\nv 4 -4 0.1\nv 4 4 0.1\nv -4 4 0.1\nv 0 0 0.4\n"
-                                   "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
-  write_file(scratch / "m.lua", R"(return rubble.mission {
-  pile = { layers = 1, pieces_per_layer = 3, terrain = { file = "hill.obj" } },
-  robots = { { urdf = "rover.urdf", name = "rover", position = { 0, -3, 1 } } }, robot_run = { duration = 0.1 },
-  camera = { width = 32, height = 24 },
-  trajectory = { waypoints = { { position = { -6, 0, 3 }, look_at = { 0, 0, 0 } } } },
-})");
-  const std::string command = "cd '" + scratch.path().string() + "' && '" RUBBLE_PROGRAM "' run m.lua --quiet --out out 2>err";
-  const int status = std::system(command.c_str());
-  EXPECT_EQ(status, 0) << read_file(scratch / "err");
-  EXPECT_TRUE(std::filesystem::exists(scratch / "out/manifest.json"));
 }
 
 }  // namespace urdf_test

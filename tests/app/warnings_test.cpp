@@ -39,7 +39,7 @@ TEST_F(Warnings, OfASoundAssetThereAreNone) {
 }
 
 TEST_F(Warnings, NameASurfaceThatTheMeshHasNot) {
-  EXPECT_IN("`looks` of `a` names the surface `pain`, which the mesh has not: did you mean `paint`?",
+  EXPECT_IN("`looks` of `a` names the surface `pain`, which the mesh does not have: did you mean `paint`?",
             of_asset(kCube, ", looks = { pain = 'brick' }"));
 }
 

@@ -41,7 +41,7 @@ std::string calc_row(const std::string& folder, const std::string& name) {
     counts += (i ? ", " : "") + std::to_string(level.triangles.size());
   }
   char text[200];
-  std::snprintf(text, sizeof text, "| %s | %.2f x %.2f x %.2f | %.*f | %zu | %s |", name.c_str(),
+  std::snprintf(text, sizeof text, "|%s|%.2f x %.2f x %.2f|%.*f|%zu|%s|", name.c_str(),
                 size.x, size.y, size.z, mass < 10 ? 2 : 0, mass,
                 read_parts(folder + name + ".parts.obj").size(), counts.c_str());
   return text;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the manifest: make_manifest.py CACHE [robots] [meshes] [trajectories]
+"""Writes the manifest: make_manifest.py CACHE [robots] [meshes] [trajectories] [closedness]
 
 Chooses files of the sources in sources.txt by rules that know nothing of Rubble, and computes the expected
 figures by pinocchio, trimesh and evo. Needs the packages of requirements.txt, and RUBBLE_FILES for the
@@ -8,7 +8,8 @@ stays in it.
 
 Robots: pinocchio reads the file, a joint moves, and all meshes are there. Of one folder two robots are taken,
 and of robots with equal mass, centre of mass and joints the first. Meshes and trajectories: at most so many of
-each source and format, in the order of a hash of their names.
+each source and format, in the order of a hash of their names. closedness: of the open meshes of meshes.json, computes
+anew whether they are open, and chooses none.
 """
 import hashlib
 import json
@@ -148,6 +149,16 @@ class Manifest:
                     jobs.append(({"source": source, "path": str(path.relative_to(folder)), "sha256": digest}, path))
         return [{**entry, **figures} for entry, figures in self.compute(mesh_work, jobs)]
 
+    def closedness(self):
+        from mesh_figures import Mesh
+        entries = json.loads((HERE / "meshes.json").read_text())
+        for entry in entries:
+            folder = self.sources.folder(entry["source"]) if entry.get("closed") is False else None
+            if folder and "closed" not in Mesh(folder / entry["path"]).figures():
+                del entry["closed"]
+                print(f"closed but for cracks: {entry['source']}: {entry['path']}", flush=True)
+        return entries
+
     def trajectories(self):
         from trajectory_figures import find_pairs
         jobs, seen = [], set()
@@ -167,7 +178,7 @@ def main():
     for kind in sys.argv[2:] or ("robots", "meshes", "trajectories"):
         entries = getattr(manifest, kind)()
         lines = ",\n".join(" " + json.dumps(entry) for entry in entries)
-        (HERE / f"{kind}.json").write_text(f"[\n{lines}\n]\n")
+        (HERE / f"{'meshes' if kind == 'closedness' else kind}.json").write_text(f"[\n{lines}\n]\n")
         packages = sum(not is_repository(e["source"]) for e in entries)
         print(f"{kind}: {len(entries)}, {packages} of them from packages")
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "io/image/data_picture.h"
+#include "io/image/exr_file.h"
 #include "io/image/image_file.h"
 #include "io/image/jpeg_file.h"
 #include "io/image/picture_decoder.h"
@@ -80,10 +81,27 @@ TEST(DataPicture, GeoTiffKeepsItsScaleAndPlace) {
   EXPECT_NE(refusal_of(feet.bytes()).find("feet"), std::string::npos);
 }
 
+TEST(DataPicture, OpenExrOfOneChannelOrColours) {
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  const DataPicture height = decode_data_picture(encode_exr(3, 1, {"Y"}, {-2.5f, none, 1234.5f}));
+  EXPECT_EQ(height.values[0], -2.5f);
+  EXPECT_TRUE(std::isnan(height.values[1]));
+  EXPECT_EQ(height.values[2], 1234.5f);
+  EXPECT_EQ(height.white, 0) << "numbers, not grey levels";
+  EXPECT_EQ(decode_data_picture(encode_exr(1, 2, {"Z"}, {3, 4})).values, (std::vector<float>{3, 4}));
+  const DataPicture colours = decode_data_picture(encode_exr(2, 1, {"R", "G", "B"}, {1, 1, 1, 0, 1, 0}));
+  EXPECT_EQ(colours.values[0], 1);
+  EXPECT_NEAR(colours.values[1], 0.7152, 1e-6);
+  EXPECT_TRUE(colours.colour);
+  EXPECT_NE(refusal_of(encode_exr(1, 1, {"U", "V"}, {1, 2})).find("found U, V"), std::string::npos);
+  const std::string whole = encode_exr(3, 1, {"Y"}, {1, 2, 3});
+  EXPECT_NE(refusal_of(whole.substr(0, whole.size() - 4)).find("is a damaged OpenEXR picture"), std::string::npos);
+}
+
 TEST(DataPicture, WhatIsNotReadIsNamed) {
-  EXPECT_EQ(refusal_of("GIF89a"), "is a GIF picture; PNG, JPEG, TIFF and PGM are read");
-  EXPECT_EQ(refusal_of(std::string("RIFF\0\0\0\0WEBPVP8 ", 16)), "is a WebP picture; PNG, JPEG, TIFF and PGM are read");
-  EXPECT_EQ(refusal_of("heights"), "is no picture; PNG, JPEG, TIFF and PGM are read");
+  EXPECT_EQ(refusal_of("GIF89a"), "is a GIF picture; PNG, JPEG, TIFF, PGM and OpenEXR are read");
+  EXPECT_EQ(refusal_of(std::string("RIFF\0\0\0\0WEBPVP8 ", 16)), "is a WebP picture; PNG, JPEG, TIFF, PGM and OpenEXR are read");
+  EXPECT_EQ(refusal_of("heights"), "is no picture; PNG, JPEG, TIFF, PGM and OpenEXR are read");
   EXPECT_EQ(picture_kind("P2P networks are text"), "");
   EXPECT_EQ(picture_kind("BMW"), "");
   const std::string whole = TiffBytes(2, 2, 3, std::vector<float>{1, 2, 3, 4}).bytes();

@@ -10,12 +10,10 @@
 #include "io/image/image_file.h"
 #include "io/mesh/mesh_file.h"
 #include "kernel/base/error.h"
-#include "tests/io/support.h"
+#include "tests/io/mesh_files.h"
 
 namespace rubble {
 namespace gltf_reader_test {
-
-using test::ScratchFolder;
 
 // A glTF file in pieces: bytes of its one buffer, accessors, and what a test says of the rest.
 class GltfFile {
@@ -59,7 +57,7 @@ std::string mesh_of(int position, int indices, const std::string& more = "") {
          std::to_string(indices) + "}]}]";
 }
 
-class Gltf : public ::testing::Test {
+class Gltf : public test::MeshFiles {
  protected:
   TriangleMesh load(const GltfFile& file, const std::string& rest, const std::string& uri = "a.bin") {
     if (uri.find("data:") != 0) write_text_file(folder_ / "my data%.bin", file.bytes()), write_text_file(folder_ / "a.bin", file.bytes());
@@ -67,18 +65,7 @@ class Gltf : public ::testing::Test {
     return importer_.load_mesh(folder_ / "a.gltf");
   }
   std::string error_of(const GltfFile& file, const std::string& rest, const std::string& uri = "a.bin") {
-    try {
-      load(file, rest, uri);
-    } catch (const InputError& error) {
-      return error.diagnostics().front().text();
-    }
-    return "no error";
-  }
-  std::string notes() const {
-    std::string all;
-    for (const std::vector<std::string>* list : {&importer_.notes().shape, &importer_.notes().looks})
-      for (const std::string& note : *list) all += note + "\n";
-    return all;
+    return mistake_of([&] { load(file, rest, uri); });
   }
   static void expect_box(const TriangleMesh& mesh, const Vec3& min, const Vec3& max, double within = 1e-6) {
     for (int i = 0; i < 3; ++i) {
@@ -87,8 +74,6 @@ class Gltf : public ::testing::Test {
     }
   }
 
-  ScratchFolder folder_;
-  MeshImporter importer_;
 };
 
 constexpr char kNode[] = ",\"nodes\":[{\"mesh\":0}]";

@@ -12,37 +12,12 @@
 #include "io/mesh/mesh_file.h"
 #include "io/mesh_formats/collada_repair.h"
 #include "kernel/base/error.h"
-#include "tests/io/support.h"
+#include "tests/io/mesh_files.h"
 
 namespace rubble {
 namespace mesh_formats_test {
 
-using test::ScratchFolder;
-
-class MeshFormats : public ::testing::Test {
- protected:
-  TriangleMesh load(const std::string& file, const std::string& bytes, const MeshUnits& units = {}) {
-    write_text_file(folder_ / file, bytes);
-    return importer_.load_mesh(folder_ / file, units);
-  }
-  std::string error_of(const std::string& file, const std::string& bytes) {
-    try {
-      load(file, bytes);
-    } catch (const InputError& error) {
-      return error.diagnostics().front().text();
-    }
-    return "no error";
-  }
-  std::string notes() const {
-    std::string all;
-    for (const std::vector<std::string>* list : {&importer_.notes().shape, &importer_.notes().looks})
-      for (const std::string& note : *list) all += note + "\n";
-    return all;
-  }
-
-  ScratchFolder folder_;
-  MeshImporter importer_;
-};
+class MeshFormats : public test::MeshFiles {};
 
 Vec3 size_of(const TriangleMesh& mesh) { return mesh.bounds().max - mesh.bounds().min; }
 
@@ -329,6 +304,41 @@ TEST_F(MeshFormats, ThreemfPlacesComponentsOfOtherFilesOfThePackage) {
   EXPECT_TRUE(is_closed(mesh));
   EXPECT_NEAR(calc_volume_properties(mesh).volume, 4, 1e-5);
   EXPECT_EQ(notes(), "");
+}
+
+// Lines with more numbers than the header says, and items that share a line.
+TEST_F(MeshFormats, PlyOfTextHasALineForEachItem) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
+  const TriangleMesh more = load("a.ply", header + "0 0 0 9\n1 0 0 9\n0 1 0 9\n0 0 1 9\n3 0 2 1 7 7\n3 0 1 3 7 7\n3 1 2 3 7 7\n3 0 3 2 7 7\n");
+  expect_size(more, {1, 1, 1});
+  EXPECT_TRUE(is_closed(more));
+  EXPECT_TRUE(has(notes(), "numbers beyond the properties of its header are left out")) << notes();
+  EXPECT_TRUE(is_closed(load("b.ply", header + "0 0 0 1 0 0 0 1 0\n0 0 1 3 0 2 1 3 0 1 3\n3 1 2 3 3 0 3 2\n")));
+  EXPECT_EQ(notes(), "");
+  EXPECT_TRUE(is_closed(load("c.ply", header + "0 0\n0\n1 0 0\n0 1 0\n0 0 1\n3 0\n2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")));
+}
+
+// Colours of base materials are drawn; of what is not, each is named.
+TEST_F(MeshFormats, ThreemfColoursAreDrawnOrNamed) {
+  const auto with = [](const std::string& resources, const std::string& attributes) {
+    std::string object = tetrahedron_3mf("1");
+    object.replace(object.find(" type="), 0, attributes);
+    return zip({{"3D/3dmodel.model", "<model " + kCoreSpace + " xmlns:m=\"http://schemas.microsoft.com/3dmanufacturing/material/2015/02\">"
+                                     "<resources>" + resources + object + "</resources><build><item objectid=\"1\"/></build></model>"}});
+  };
+  const std::string base = "<basematerials id=\"5\"><base name=\"red\" displaycolor=\"#FF0000\"/></basematerials>";
+  const TriangleMesh red = load("a.3mf", with(base, " pid=\"5\" pindex=\"0\""));
+  ASSERT_NE(red.paint_of(0), nullptr);
+  EXPECT_EQ(red.paint_of(0)->colour, (Vec3f{1, 0, 0}));
+  EXPECT_EQ(notes(), "");
+  load("b.3mf", with(base + "<m:multiproperties id=\"6\" pids=\"5\"><m:multi pindices=\"0\"/></m:multiproperties>"
+                            "<m:pbmetallicdisplayproperties id=\"7\"/>", " pid=\"6\" pindex=\"0\""));
+  EXPECT_TRUE(has(notes(), "the mixed colours of its <multiproperties> are not drawn")) << notes();
+  EXPECT_TRUE(has(notes(), "its <pbmetallicdisplayproperties>, which say how surfaces shine, are left out")) << notes();
+  load("c.3mf", with("<basematerials id=\"5\"><base name=\"red\" displaycolor=\"red\"/></basematerials>", " pid=\"5\" pindex=\"0\""));
+  EXPECT_TRUE(has(notes(), "the colour \"red\" is none")) << notes();
 }
 
 TEST_F(MeshFormats, ThreemfRefusesWhatItMustKnowByName) {

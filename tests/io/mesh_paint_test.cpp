@@ -10,12 +10,10 @@
 #include "io/image/picture_decoder.h"
 #include "io/mesh/mesh_file.h"
 #include "kernel/base/error.h"
-#include "tests/io/support.h"
+#include "tests/io/mesh_files.h"
 
 namespace rubble {
 namespace mesh_paint_test {
-
-using test::ScratchFolder;
 
 constexpr char kSheet[] = R"(mtllib sheet.mtl
 v 0 0 0
@@ -43,22 +41,12 @@ RgbImage make_ramp(int width, int height) {
 
 double to_linear(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
 
-class MeshPaint : public ::testing::Test {
+class MeshPaint : public test::MeshFiles {
  protected:
   TriangleMesh load(const std::string& file, const std::string& text, const std::string& materials = "") {
-    write_text_file(folder_ / file, text);
     if (!materials.empty()) write_text_file(folder_ / "sheet.mtl", materials);
-    return importer_.load_mesh(folder_ / file);
+    return MeshFiles::load(file, text);
   }
-  std::string notes() const {
-    std::string all;
-    for (const std::vector<std::string>* notes : {&importer_.notes().shape, &importer_.notes().looks})
-      for (const std::string& note : *notes) all += note + "\n";
-    return all;
-  }
-
-  ScratchFolder folder_;
-  MeshImporter importer_;
 };
 
 TEST_F(MeshPaint, IsTheImageOfAnObj) {

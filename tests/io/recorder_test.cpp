@@ -1,6 +1,7 @@
 // What holds for every recorder alike, and the small ones.
 #include "io/recording/recorder.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -217,6 +218,52 @@ TEST(ContactSheet, ShowsTheFirstAndTheLastFrameAndTheirDepth) {
   const std::vector<int> ground = pixel(20 + 96 + 4 + 40, 52 + 60);
   EXPECT_EQ(sky, (std::vector<int>{46, 48, 52})) << "no return is grey";
   EXPECT_NE(ground, sky);
+}
+
+// A sensor that has gone 4 m along X sees a post on its left: where it is now is in colour, where it was seen first is grey.
+TEST(ContactSheet, ShowsTheScansOfALidarFromAbove) {
+  ScratchFolder folder;
+  ContactSheetOptions options;
+  options.total_frames = 2;
+  options.tile = 96;
+  options.columns = 2;
+  options.lidar = "scan";
+  const auto recorder = make_contact_sheet_recorder(folder / "preview.png", options);
+  const auto scan_at = [](double x, int index, int sensor) {
+    LidarScan scan;
+    scan.stamp_ns = 1000 + index;
+    scan.sensor = sensor, scan.index = index;
+    scan.world_from_lidar = {Pose{Quat{}, {x, 0, 0.3}}};
+    LidarPoint post;
+    post.y = sensor == 0 ? 1.5F : -1.5F;  // only those of the first LiDAR are shown
+    scan.points = {post};
+    return scan;
+  };
+  recorder->write_lidar(scan_at(0, 0, 0));
+  recorder->write_lidar(scan_at(0, 0, 1));
+  recorder->write(make_frame(0));
+  recorder->write_lidar(scan_at(4, 1, 0));
+  recorder->write(make_frame(1));
+  recorder->finish();
+  const RgbImage sheet = read_rgb_png(folder / "preview.png");
+  const int triple = 3 * 96 + 2 * 4;
+  ASSERT_EQ(sheet.width, 20 + 2 * (triple + 20));
+  // 7 m fit into 96 pixels: the way with 1.5 m about it.
+  const auto saturation = [&](int frame, double x, double y) {
+    const int column = 20 + frame * (triple + 20) + 2 * (96 + 4) + int(96 * (x + 1.5) / 7), row = 52 + int(32 - 96 * y / 7);
+    int strongest = 0;
+    for (int v = row - 1; v <= row + 1; ++v)
+      for (int u = column - 1; u <= column + 1; ++u) {
+        const auto* p = sheet.rgb.data() + 3 * (v * sheet.width + u);
+        strongest = std::max(strongest, *std::max_element(p, p + 3) - *std::min_element(p, p + 3));
+      }
+    return strongest;
+  };
+  EXPECT_GT(saturation(0, 0, 1.5), 80) << "the post, seen now";
+  EXPECT_LT(saturation(1, 0, 1.5), 40) << "the post, seen before";
+  EXPECT_GT(saturation(1, 4, 1.5), 80) << "the post, seen from where the sensor is now";
+  EXPECT_LT(saturation(0, 4, 1.5), 40) << "not yet";
+  EXPECT_LT(saturation(0, 0, -1.5), 40) << "of another LiDAR";
 }
 
 TEST(ContactSheet, FailsWhenFramesAreMissingAtTheEnd) {

@@ -255,6 +255,7 @@ TEST(UrdfReader, ShapesThatAreNoneAreRefusedWithTheirLine) {
   EXPECT_TRUE(holds(mistake_in(with("<sphere radius=\"-1\"/>")), "a.urdf:3: a: its geometry has a size below 0"));
   EXPECT_TRUE(holds(mistake_in(with("<cylinder radius=\"1\"/>")), "a.urdf:3: a: <cylinder> has no `length`"));
   EXPECT_TRUE(holds(mistake_in(with("<mesh filename=\"package://x/gone.stl\"/>")), "a.urdf:3: a: its mesh is missing"));
+  EXPECT_TRUE(holds(mistake_in(with("<mesh filename=\"t.stl\" scale=\"1 1 1 2\"/>")), "`scale` of <mesh> cannot be read: expected three numbers"));
   EXPECT_EQ(read(with("<capsule radius=\"1\" length=\"2\"/>")).links[0].collisions[0].kind, UrdfGeometry::Kind::capsule);
   EXPECT_TRUE(holds(mistake_in("<robot name=\"r\"><link name=\"a\"><inertial><mass value=\"-1\"/></inertial></link></robot>"),
                     "a.urdf:1: a: a mass below 0"));

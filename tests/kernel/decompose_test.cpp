@@ -306,5 +306,16 @@ TEST(Decompose, RoundThingsKeepTheirLengthAndVolume) {
   }
 }
 
+// A label: thinner than the tolerance of its corners, with more of them than a part may have.
+TEST(Decompose, TakesAFoilForAThinPlate) {
+  const TriangleMesh foil = revolve({{0, 0}, {0.007, 0}, {0.007, 5e-5}, {0, 5e-5}}, 72);
+  const Decomposition made = decompose(foil);
+  ASSERT_EQ(made.parts.size(), 1u);
+  Aabb box;
+  for (const Vec3& p : made.parts[0].points) box.include(p);
+  EXPECT_NEAR(box.max.z - box.min.z, DecomposeOptions{}.thinnest, 1e-3);
+  EXPECT_NEAR(box.max.x - box.min.x, 0.014, 1e-3);
+}
+
 }  // namespace decompose_test
 }  // namespace rubble

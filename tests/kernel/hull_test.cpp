@@ -9,6 +9,7 @@
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
+#include "kernel/geometry/lattice_hull.h"
 #include "kernel/geometry/shape.h"
 #include "kernel/geometry/simplify_hull.h"
 #include "scenes.h"
@@ -62,6 +63,49 @@ TEST(Hull, EveryPointOfARandomSetIsInside) {
     // Euler: corners - edges + faces = 2.
     EXPECT_EQ(hull.points.size() + hull.faces.size(), edges / 2 + 2);
   }
+}
+
+// Of points in planes and lines, and of many: each is on or below all faces, without rounding.
+TEST(Hull, OfALatticeIsExact) {
+  RandomStream random(6, "test");
+  for (const int steps : {1, 2, 4, 64, 100000}) {
+    SCOPED_TRACE(steps);
+    std::vector<GridPoint> points;
+    for (int i = 0; i < 400; ++i) {
+      const auto coordinate = [&] { return std::int64_t(random.uniform(0, steps + 1)); };
+      points.push_back({coordinate(), coordinate(), coordinate()});
+    }
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    const std::vector<Polygon> faces = calc_lattice_hull(points);
+    if (steps <= 4) {
+      EXPECT_EQ(faces.size(), 6u) << "a cube, all of whose lattice points are there";
+    }
+    for (const Polygon& face : faces) {
+      EXPECT_EQ(*std::min_element(face.begin(), face.end()), face[0]);
+      const auto side = [&](int a, int b, int c, const GridPoint& p) {
+        const GridPoint &u = points[std::size_t(a)], &v = points[std::size_t(b)], &w = points[std::size_t(c)];
+        const std::int64_t x1 = v.x - u.x, y1 = v.y - u.y, z1 = v.z - u.z, x2 = w.x - u.x, y2 = w.y - u.y, z2 = w.z - u.z;
+        return (y1 * z2 - z1 * y2) * (p.x - u.x) + (z1 * x2 - x1 * z2) * (p.y - u.y) + (x1 * y2 - y1 * x2) * (p.z - u.z);
+      };
+      for (const GridPoint& p : points) ASSERT_LE(side(face[0], face[1], face[2], p), 0);
+      for (const int corner : face) ASSERT_EQ(side(face[0], face[1], face[2], points[std::size_t(corner)]), 0);
+    }
+    const FaceOfEdge face_of_edge(faces);
+    for (const Polygon& face : faces)
+      for (std::size_t i = 0; i < face.size(); ++i)
+        EXPECT_NO_THROW(face_of_edge.find(FaceOfEdge::key(face[(i + 1) % face.size()], face[i]))) << "two faces an edge";
+  }
+  EXPECT_THROW(calc_lattice_hull({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}}), std::invalid_argument);
+  EXPECT_THROW(calc_lattice_hull({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}}), std::invalid_argument);
+}
+
+// Results of runs depend on the order of faces and corners.
+TEST(Hull, FacesComeInTheirOrder) {
+  const std::vector<GridPoint> octahedron = {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {0, 0, 1}, {0, 1, 0}, {1, 0, 0}};
+  const std::vector<Polygon> expected = {{0, 1, 3}, {0, 3, 4}, {0, 4, 2}, {0, 2, 1},
+                                         {1, 2, 5}, {1, 5, 3}, {2, 4, 5}, {3, 5, 4}};
+  EXPECT_EQ(calc_lattice_hull(octahedron), expected);
 }
 
 // Of a face's corners, from the plane of its area.

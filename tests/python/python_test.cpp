@@ -56,6 +56,7 @@ TEST(NightlyPython, ArraysAreWholeWithNumpyOneAndTwo) {
 TEST(PythonDocument, RunsAsItIsWritten) { expect_tests("test_document.py"); }
 TEST(PythonEnvironments, RepeatTheirEpisodes) { expect_tests("test_envs.py"); }
 
+TEST(PythonEnvironments, TheReferenceIsUpToDate) { expect_tests("test_env_reference.py"); }
 TEST(PythonEnvironments, KeepWhatGymnasiumAsksOfThem) { expect_tests("test_env_contract.py"); }
 
 TEST(PythonPolicy, SeesAndAnswers) { expect_tests("test_ppo.py -k Senses -k Agent"); }

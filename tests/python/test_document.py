@@ -28,7 +28,7 @@ class Document(unittest.TestCase):
         self.folder.cleanup()
 
     def test_blocks_run(self):
-        with open(os.path.join(ROOT, "docs", "python.md")) as file:
+        with open(os.path.join(ROOT, "docs", "reference", "python.md")) as file:
             blocks = re.findall(r"^```python\n(.*?)^```", file.read(), re.DOTALL | re.MULTILINE)
         self.assertGreaterEqual(len(blocks), 6)
         # What the text says is the reader's: places to ask about.

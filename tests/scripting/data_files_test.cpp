@@ -10,28 +10,15 @@
 #include "scripting/files/calibration.h"
 #include "scripting/files/data_grid.h"
 #include "tests/io/tiff_bytes.h"
-#include "tests/scripting/test_support.h"
+#include "tests/scripting/script_files.h"
 
 namespace rubble {
 namespace data_files_test {
 
 using testing::TiffBytes;
 
-class DataFiles : public ::testing::Test {
+class DataFiles : public ScriptFiles {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  void write(const std::string& name, const std::string& bytes) {
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
-  }
-  Mission load(const std::string& text) {
-    return load_mission_text("return rubble.mission { " + text + " }", (folder_ / "m.lua").string());
-  }
   Mission terrain(const std::string& arguments) { return load("pile = { terrain = rubble.terrain.image(" + arguments + ") }"); }
   std::string terrain_error(const std::string& arguments) {
     return error_of([&] { terrain(arguments); });
@@ -41,7 +28,6 @@ class DataFiles : public ::testing::Test {
       if (line.find(words) != std::string::npos) return true;
     return false;
   }
-  std::filesystem::path folder_;
 };
 
 // 5 x 2 pixels of 16 bits, each row 0, 1/4, 1/2, 3/4 and 1 of white. Written by another program.
@@ -51,6 +37,25 @@ const unsigned char kRamp16[] = {
     0x00, 0x00, 0x16, 0x49, 0x44, 0x41, 0x54, 0x78, 0xda, 0x63, 0x60, 0x60, 0x70, 0x60, 0x68, 0x60, 0xd8,
     0xff, 0xff, 0xff, 0x7f, 0x06, 0x04, 0x13, 0x00, 0x4d, 0x56, 0x08, 0xf9, 0xdf, 0x16, 0x28, 0x90, 0x00,
     0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+
+// Two pixels of 8 bits: green, and (10, 20, 30). Written by another program.
+const unsigned char kColours[] = {
+    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
+    0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00, 0x00, 0x7b, 0x40, 0xe8, 0xdd, 0x00,
+    0x00, 0x00, 0x0f, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x60, 0xf8, 0xcf, 0xc0, 0x25, 0x22, 0x07,
+    0x00, 0x05, 0x66, 0x01, 0x3c, 0x18, 0x56, 0x15, 0xac, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44,
+    0xae, 0x42, 0x60, 0x82};
+
+// The text that a run keeps has whole levels; brightness lies between them.
+TEST(DataGridText, OfColoursIsReadAgain) {
+  const DataGrid grid = read_data_grid({reinterpret_cast<const char*>(kColours), sizeof kColours});
+  EXPECT_EQ(grid.white, 255);
+  EXPECT_EQ(grid.values, (std::vector<double>{182, 19}));
+  const DataGrid again = read_data_grid(data_grid_text(grid));
+  EXPECT_EQ(again.values, grid.values);
+  EXPECT_EQ(again.white, grid.white);
+  EXPECT_TRUE(again.colour);
+}
 
 TEST_F(DataFiles, SixteenBitHeightsAreARamp) {
   write("ramp.png", std::string(reinterpret_cast<const char*>(kRamp16), sizeof kRamp16));
@@ -86,7 +91,7 @@ TEST_F(DataFiles, WhatAnElevationModelLacksIsSaid) {
   EXPECT_NE(terrain_error("'degrees.tif'").find("degrees: give `length`"), std::string::npos);
   EXPECT_EQ(terrain("'degrees.tif', { length = 30 }").scenario.pile.terrain.spacing, 30);
   write("map.gif", "GIF89a");
-  EXPECT_NE(terrain_error("'map.gif'").find("is a GIF picture; PNG, JPEG, TIFF and PGM are read"), std::string::npos);
+  EXPECT_NE(terrain_error("'map.gif'").find("is a GIF picture; PNG, JPEG, TIFF, PGM and OpenEXR are read"), std::string::npos);
   write("m.tif", TiffBytes(2, 2, 3, std::vector<float>{1, 2, 3, 4}).bytes());
   EXPECT_NE(error_of([&] { load("pile = rubble.include('m.tif')"); }).find("but a picture: rubble.read_image reads it"), std::string::npos);
 }

@@ -153,7 +153,7 @@ TEST(MissionErrors, WhatContradictsItself) {
     { position = {1, 0, 0}, look_at = {2, 0, 0}, rpy_deg = {5, 6, 7} } } } })"),
       "m.lua:2: pile.placed[1]: no piece: expected `asset = NAME` or `box = {x, y, z}`, found "
       "neither\n"
-      "m.lua:2: pile.mix: nothing to draw: expected a weight above 0, found only weights of "
+      "m.lua:2: pile.mix: all weights are 0: expected a weight above 0, found only weights of "
       "0\n"
       "m.lua:4: trajectory.waypoints[1].t: the first waypoint is the start: expected 0, found "
       "1\n"

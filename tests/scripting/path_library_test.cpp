@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/scripting/test_support.h"
+#include "tests/scripting/script_files.h"
 
 namespace rubble {
 namespace path_library_test {
@@ -96,24 +96,12 @@ TEST(Paths, AFunctionIsAskedOnceAFrame) {
   EXPECT_NE(mission_error("return { trajectory = rubble.trajectory.along(function(t) while true do end end) }"), "");
 }
 
-class PathFiles : public ::testing::Test {
+class PathFiles : public ScriptFiles {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
-  Mission load(const std::string& text) {
-    return load_mission_text("return rubble.mission { " + text + " }", (folder_ / "m.lua").string());
-  }
   std::vector<CameraPose> poses(const std::string& trajectory) {
     const Scenario s = load("trajectory = " + trajectory).scenario;
     return sample_trajectory(s.trajectory, s.start_ns);
   }
-  std::filesystem::path folder_;
 };
 
 // What we wrote ourselves, read back: groundtruth.txt holds optical frames.
@@ -243,7 +231,7 @@ TEST_F(PathFiles, ADensityImageIsReadTopDown) {
   EXPECT_NE(error_of([&] { load("pile = { spawn_density = rubble.density.image('bad.png') }"); }).find("\"bad.png\" is a damaged PNG"),
             std::string::npos);
   write("no.png", "P7");
-  EXPECT_NE(error_of([&] { load("pile = { spawn_density = rubble.density.image('no.png') }"); }).find("\"no.png\" is no picture; PNG, JPEG, TIFF and PGM are read"),
+  EXPECT_NE(error_of([&] { load("pile = { spawn_density = rubble.density.image('no.png') }"); }).find("\"no.png\" is no picture; PNG, JPEG, TIFF, PGM and OpenEXR are read"),
             std::string::npos);
 }
 
@@ -274,7 +262,7 @@ TEST(Densities, Mistakes) {
             "m.lua:1: pile.spawn_density.weights: not a whole grid: expected columns * rows = 4 numbers, found 3 "
             "(rubble.density makes such grids)");
   EXPECT_EQ(mission_error("return { pile = { spawn_density = { columns = 1, rows = 2, weights = {0, 0} } } }"),
-            "m.lua:1: pile.spawn_density.weights: nowhere to draw: expected a weight above 0, found only weights of 0 "
+            "m.lua:1: pile.spawn_density.weights: all weights are 0: expected a weight above 0, found only weights of 0 "
             "(rubble.density makes such grids)");
 }
 
@@ -298,7 +286,7 @@ TEST(FindVoid, Mistakes) {
   EXPECT_EQ(mission_error("local v = rubble.find_void { radios = 1 }\nreturn {}"),
             "m.lua:1: rubble.find_void.radios: unknown key `radios` (did you mean `radius`?)");
   EXPECT_EQ(mission_error("return { trajectory = { plan = 'avoid', waypoints = { { position = {0, 0, 1} } } } }"),
-            "m.lua:1: trajectory.waypoints: nowhere to go: expected at least two waypoints for the plan \"avoid\", found 1");
+            "m.lua:1: trajectory.waypoints: the plan needs a destination: expected at least two waypoints for the plan \"avoid\", found 1");
   EXPECT_EQ(mission_error("return { trajectory = { plan = 'avoid', waypoints = { { position = {0, 0, 1} },\n"
                           "{ position = {1, 0, 1}, t = 2 } } } }"),
             "m.lua:2: trajectory.waypoints[2].t: contradicts the plan \"avoid\": expected `speed`: how long the way is, "

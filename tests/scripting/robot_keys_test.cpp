@@ -196,7 +196,7 @@ TEST(RobotKeys, ARideTakesAsLongAsTheRobotIsDriven) {
             "m.lua:2: trajectory.ride.robot: no robot has this name: expected one of r, found \"x\"");
   EXPECT_NE(error_of("return rubble.mission { " + robot +
                      ", trajectory = { ride = { robot = \"r\" }, plan = \"avoid\" } }")
-                .find("trajectory.ride: a robot's way cannot be changed"),
+                .find("trajectory.ride: the path of a robot cannot be changed"),
             std::string::npos);
 }
 

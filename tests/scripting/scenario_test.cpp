@@ -164,7 +164,7 @@ TEST(Camera, ContradictionsAreNamed) {
   EXPECT_NE(mistake([](Scenario& s) { s.camera.lens.k1 = 0.1; }).find("no distortion"),
             std::string::npos);
   EXPECT_NE(mistake([](Scenario& s) { s.camera.shutter.motion_blur = true; })
-                .find("camera.shutter.motion_blur: an ideal image takes no time"),
+                .find("camera.shutter.motion_blur: an ideal image has no exposure time"),
             std::string::npos);
   EXPECT_NE(mistake([](Scenario& s) { s.depth_sensor.min_range = 7; }).find("within reach"),
             std::string::npos);

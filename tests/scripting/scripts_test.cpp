@@ -28,7 +28,7 @@ TEST(Scripts, AllLoadAndSample) {
   }
 }
 
-TEST(Scripts, TheDemoIsLargeEnough) {
+TEST(Scripts, TheFirstPileIsLargeEnough) {
   const Scenario s = load("first_pile.lua").scenario;
   EXPECT_GE(s.pile.layers * s.pile.pieces_per_layer, 1200);
   EXPECT_EQ(s.camera.width, 1024);

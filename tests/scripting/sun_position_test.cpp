@@ -101,10 +101,10 @@ std::string mistake(Change change) {
 
 TEST(SkyKeys, NameWhatContradicts) {
   EXPECT_EQ(mistake([](LightScenario& l) { l.sky.type = SkyType::overcast; }),
-            "light.sky: only the sun has another sky than the clear one: expected light.type of \"sun\", or "
+            "light.sky: only the light type `sun` has this sky: expected light.type of \"sun\", or "
             "\"clear\"");
   EXPECT_EQ(mistake([](LightScenario& l) { l.spec.type = LightType::sun, l.latitude_deg = 3; }),
-            "light.time: the place of the sun needs place and time: expected light.latitude_deg, "
+            "light.time: the position of the sun needs place and time: expected light.latitude_deg, "
             "light.longitude_deg and light.time, or none of them");
   const auto at = [](LightScenario& l) {
     l.spec.type = LightType::sun, l.latitude_deg = 3, l.longitude_deg = 4, l.time = "2026-06-21T12:00:00Z";
@@ -114,7 +114,7 @@ TEST(SkyKeys, NameWhatContradicts) {
             "light.time: not a date and time in UTC: expected such as \"2026-06-21T12:00:00Z\", from 1900 to "
             "2100, found \"noon\"");
   EXPECT_EQ(mistake([&](LightScenario& l) { at(l), l.random_rotation = true; }),
-            "light.random_rotation: the sun stands where place and time say: expected false");
+            "light.random_rotation: place and time give the direction of the sun: expected false");
   EXPECT_EQ(mistake([&](LightScenario& l) { at(l), l.sky.type = SkyType::moonlit; }),
             "light.time: place and time give the sun, not the moon: expected light.elevation_deg and "
             "light.azimuth_deg of the moon");

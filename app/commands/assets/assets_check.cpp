@@ -91,12 +91,12 @@ void check_hull(const Asset& asset, const TriangleMesh& mesh, const Shape& shape
   const double out = report.error.outside / area, in = report.error.inside / area;
   if (out > kLooseHull)
     report.warnings.push_back(
-        "the parts stand out of the mesh by " + millimetres(out) +
+        "the parts exceed the mesh by " + millimetres(out) +
         " in the mean: pieces will seem to float; " +
         (asset.parts.empty() ? "try collision = \"decompose\"" : "bring the parts of " + asset.parts + " nearer to it"));
   if (in > kLooseHull)
-    report.warnings.push_back("the parts stay behind the mesh by " + millimetres(in) +
-                              " in the mean: pieces will sink into it");
+    report.warnings.push_back("the parts lie inside the mesh by " + millimetres(in) +
+                              " on average: other pieces will sink into it");
 }
 
 // A sound one goes into the library, for what is made of it.
@@ -238,7 +238,7 @@ struct AssetsCheckRequest {
 
 Action declare_assets_check(CommandLine& line) {
   const auto request = std::make_shared<AssetsCheckRequest>();
-  line.add("pack", request->pack, "A folder with a pack.lua, or a bundled pack").required();
+  line.add("pack", request->pack, "A folder with a pack.lua, or the name of a bundled pack").required().metavar("PACK");
   line.add_flag("--json", request->json, "Print JSON instead of a table");
   return [request] { return check_pack(request->pack, request->json); };
 }

@@ -226,11 +226,11 @@ ExitCode show_pack(const AssetsShowRequest& request) {
 
 Action declare_assets_show(CommandLine& line) {
   const auto request = std::make_shared<AssetsShowRequest>();
-  line.add("pack", request->pack, "A folder with a pack.lua, or a bundled pack").required();
-  line.add("--out", request->out, "The picture, .png or .jpg")
+  line.add("pack", request->pack, "A folder with a pack.lua, or the name of a bundled pack").required().metavar("PACK");
+  line.add("--out", request->out, "Output picture, .png or .jpg")
       .shows_default_text("NAME.png")
       .metavar("FILE");
-  line.add("--tile", request->tile, "Width of one asset's picture, in pixels")
+  line.add("--tile", request->tile, "Width of the picture of one asset, in pixels")
       .shows_default()
       .between(64, 1024);
   line.add_flag("--collision", request->collision,

@@ -45,14 +45,14 @@ Action declare_navigate(CommandLine& line) {
   const auto request = std::make_shared<NavigateRequest>();
   NavigationBenchRequest& bench = request->bench;
   add_mission_options(line, bench.of);
-  line.add("--seeds", bench.seeds, "The piles, as in 1..100 or 3,5,9").shows_default();
-  line.add("--planner", bench.planner, "ompl: a global planner over the robot's own map; none: the navigator alone")
+  line.add("--seeds", bench.seeds, "Seeds of the piles, as in 1..100 or 3,5,9").shows_default().metavar("SEEDS");
+  line.add("--planner", bench.planner, "ompl: a global planner on the robot's own map; none: the navigator alone")
       .shows_default()
       .metavar("NAME");
-  line.add_flag("--missions-only", bench.missions_only, "Write missions/SEED.lua for `rubble drive`, and drive nothing");
+  line.add_flag("--missions-only", bench.missions_only, "Write missions/SEED.lua for `rubble drive`; drive nothing");
   line.add("--out", bench.of.out, "Output folder").shows_default_text("out/<script>_navigate").metavar("DIR");
   line.add_flag("--force", request->force, "Replace the tables of an earlier call");
-  line.add_flag("--json", request->json, "The table as JSON on standard output");
+  line.add_flag("--json", request->json, "Print the table as JSON");
   add_threads_option(line, bench.of.options.threads);
   add_quiet_option(line, bench.of.options.quiet);
   return [request] { return navigate_all(*request); };
@@ -61,7 +61,7 @@ Action declare_navigate(CommandLine& line) {
 }  // namespace
 
 Command bench_navigate_command() {
-  return {"bench", "navigate", "MRPT's navigator drives a crawler through the voids of many piles: a table", declare_navigate};
+  return {"bench", "navigate", "Drive a crawler through the voids of many piles with the MRPT navigator", declare_navigate};
 }
 
 }  // namespace rubble

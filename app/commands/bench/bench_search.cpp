@@ -48,12 +48,14 @@ Action declare(CommandLine& line) {
   const auto request = std::make_shared<Request>();
   SearchBenchRequest& search_request = request->search;
   add_mission_options(line, search_request.of);
-  line.add("--agent", search_request.agent, "A program that searches: gets and answers lines of JSON")
+  line.add("--agent", search_request.agent, "Program of an agent; it reads and writes lines of JSON")
       .metavar("COMMAND");
-  line.add("--baseline", search_request.baselines, "random, wall, frontier, octomap or oracle; again for several")
+  line.add("--baseline", search_request.baselines, "Baseline agent: random, wall, frontier, octomap or oracle; may "
+                                                   "be repeated")
       .metavar("NAME");
-  line.add("--seeds", search_request.seeds, "The piles, as in 1..100 or 3,5,9").shows_default();
-  line.add("--deadline", search_request.deadline, "For an answer of the agent; of its first one three times that")
+  line.add("--seeds", search_request.seeds, "Seeds of the piles, as in 1..100 or 3,5,9").shows_default().metavar("SEEDS");
+  line.add("--deadline", search_request.deadline, "Time limit for an answer of the agent; three times longer for the "
+                                                  "first answer")
       .shows_default("s")
       .metavar("SECONDS")
       .within(0.01, 3600.0);
@@ -61,7 +63,7 @@ Action declare(CommandLine& line) {
       .shows_default_text("out/<script>_search")
       .metavar("DIR");
   line.add_flag("--force", request->force, "Replace the tables of an earlier call");
-  line.add_flag("--json", request->json, "The table as JSON on standard output");
+  line.add_flag("--json", request->json, "Print the table as JSON");
   add_threads_option(line, search_request.of.options.threads);
   add_quiet_option(line, search_request.of.options.quiet);
   return [request] { return search(*request); };
@@ -70,7 +72,7 @@ Action declare(CommandLine& line) {
 }  // namespace
 
 Command bench_search_command() {
-  return {"bench", "search", "Who finds the people in the voids of many piles: a table", declare};
+  return {"bench", "search", "Compare agents that search for victims in the voids of many piles", declare};
 }
 
 }  // namespace rubble

@@ -147,22 +147,22 @@ ExitCode eval_map(const MapRequest& request) {
 Action declare_eval_map(CommandLine& line) {
   const auto request = std::make_shared<MapRequest>();
   request->space.voxel = 0.05;
-  line.add("map", request->map, "The map: a mesh or point cloud, PLY").required();
-  line.add("dataset", request->dataset, "Output folder of the run it was made from").required();
+  line.add("map", request->map, "The map: a mesh or point cloud, PLY").required().metavar("FILE");
+  line.add("dataset", request->dataset, "Output folder of the run from which the map was made").required().metavar("DIR");
   line.add("--align", request->align,
-           "The COLMAP model whose frame the map has; the map is transformed by a similarity")
+           "The COLMAP model in whose frame the map is; the map is aligned by a similarity transform")
       .shows_default_text("the map is in the world of the dataset")
       .metavar("DIR");
-  line.add("--range", request->range, "Largest distance at which frames see a surface")
+  line.add("--range", request->range, "Largest distance of a visible surface from a frame")
       .shows_default_text("the depth sensor's range, or 10")
       .metavar("METRES")
       .within(0.01, 1000.0);
   add_space_options(line, request->space);
   line.add("--details", request->details,
-           "Write there the map by its errors and the seen surface by what the map has of it "
-           "(PLY), and the entrances (CSV)")
+           "Folder for the map coloured by error and the visible surface coloured by coverage (PLY), and for the "
+           "entrances (CSV)")
       .metavar("DIR");
-  add_packs_option(line, request->asset_packs, "A folder with packs, if they were moved");
+  add_packs_option(line, request->asset_packs, "Folder of an asset pack of the run, if it was moved");
   add_score_options(line, request->output);
   add_threads_option(line, request->options.threads);
   add_quiet_option(line, request->options.quiet);

@@ -65,20 +65,19 @@ ExitCode eval_sfm(const SfmRequest& request) {
 
 Action declare_eval_sfm(CommandLine& line) {
   const auto request = std::make_shared<SfmRequest>();
-  line.add("datasets", request->datasets, "Output folders of runs with outputs.colmap").required();
+  line.add("datasets", request->datasets, "Output folders of runs with outputs.colmap").required().metavar("DIR");
   line.add("--model", request->model,
-           "COLMAP's model in each dataset, or the folder of its numbered models")
+           "The COLMAP model in each dataset, or the folder of its numbered models")
       .shows_default()
       .metavar("DIR");
-  line.add("--bound", request->bound, "A frame is on track if its position error is at most this")
+  line.add("--bound", request->bound, "Largest position error of a frame on track")
       .shows_default()
       .metavar("METRES")
       .positive();
   line.add("--details", request->details,
-           "Write into this folder the points in the world frame (PLY) and the track (CSV) of each "
-           "dataset")
+           "Folder for the points in the world frame (PLY) and the track (CSV) of each dataset")
       .metavar("DIR");
-  add_packs_option(line, request->asset_packs, "A folder with packs, if they were moved");
+  add_packs_option(line, request->asset_packs, "Folder of an asset pack of the run, if it was moved");
   add_score_options(line, request->output);
   return [request] { return eval_sfm(*request); };
 }

@@ -37,12 +37,12 @@ ExitCode eval_surface(const SurfaceRequest& request) {
 
 Action declare_eval_surface(CommandLine& line) {
   const auto request = std::make_shared<SurfaceRequest>();
-  line.add("dataset", request->dataset, "Output folder of a run with outputs.colmap").required();
-  line.add("mesh", request->mesh, "A mesh or point cloud, PLY").required();
-  line.add("--align", request->align, "The COLMAP model whose frame the mesh has")
-      .shows_default_text("it is in the world of the dataset")
+  line.add("dataset", request->dataset, "Output folder of a run with outputs.colmap").required().metavar("DIR");
+  line.add("mesh", request->mesh, "The mesh or point cloud, PLY").required().metavar("FILE");
+  line.add("--align", request->align, "The COLMAP model in whose frame the mesh is")
+      .shows_default_text("the mesh is in the world of the dataset")
       .metavar("DIR");
-  add_packs_option(line, request->asset_packs, "A folder with packs, if they were moved");
+  add_packs_option(line, request->asset_packs, "Folder of an asset pack of the run, if it was moved");
   add_score_options(line, request->output);
   return [request] { return eval_surface(*request); };
 }
@@ -50,7 +50,7 @@ Action declare_eval_surface(CommandLine& line) {
 }  // namespace
 
 Command eval_surface_command() {
-  return {"eval", "surface", "Distances of a mesh or point cloud from the true surface",
+  return {"eval", "surface", "Score a mesh or point cloud: distances from the true surface",
           declare_eval_surface};
 }
 

@@ -85,15 +85,18 @@ ExitCode eval_trajectory(const TrajectoryRequest& request) {
 
 Action declare_eval_trajectory(CommandLine& line) {
   const auto request = std::make_shared<TrajectoryRequest>();
-  line.add("estimate", request->estimate, "The estimate: a TUM, EuRoC or KITTI file, or one that names its columns").required();
-  line.add("truth", request->truth, "The truth, likewise").required();
+  line.add("estimate", request->estimate, "The estimate: a TUM, EuRoC or KITTI file, or one that names its columns")
+      .required()
+      .metavar("FILE");
+  line.add("truth", request->truth, "The ground truth, in one of these formats").required().metavar("FILE");
   line.add("--delta", request->delta, "Number of poses over which relative errors are computed")
       .shows_default();
   line.add("--max-difference", request->max_difference, "Largest time difference of matched poses")
       .shows_default()
       .metavar("SECONDS")
       .non_negative();
-  line.add("--columns", request->columns, "Names of the columns, for files that do not name them: t,x,y,z,qx,qy,qz,qw")
+  line.add("--columns", request->columns, "Names of the columns of a file that does not name them: "
+                                          "t,x,y,z,qx,qy,qz,qw")
       .metavar("NAMES");
   line.add_flag("--json", request->json, "Print the result as JSON");
   return [request] { return eval_trajectory(*request); };
@@ -102,7 +105,7 @@ Action declare_eval_trajectory(CommandLine& line) {
 }  // namespace
 
 Command eval_trajectory_command() {
-  return {"eval", "trajectory", "Absolute and relative errors of a trajectory, as computed by evo",
+  return {"eval", "trajectory", "Score a trajectory: absolute and relative errors, as computed by evo",
           declare_eval_trajectory};
 }
 

@@ -14,7 +14,7 @@ ExitCode print_completion(const std::string& shell) {
   const auto commands = describe_commands(all_commands());
   if (shell != "bash" && shell != "zsh")
     throw InputError(
-        {"", 0, "shell", "no completion for this shell", "bash or zsh", "`" + shell + "`", ""});
+        {"", 0, "shell", "no completion for this shell", "The shell: bash or zsh", "`" + shell + "`", ""});
   const std::string text = shell == "bash" ? make_bash_completion(commands, mission_keys())
                                            : make_zsh_completion(commands, mission_keys());
   print_out("%s", text.c_str());
@@ -23,7 +23,7 @@ ExitCode print_completion(const std::string& shell) {
 
 Action declare_completion(CommandLine& line) {
   const auto shell = std::make_shared<std::string>();
-  line.add("shell", *shell, "bash or zsh").required().metavar("SHELL");
+  line.add("shell", *shell, "The shell: bash or zsh").required().metavar("SHELL");
   return [shell] { return print_completion(*shell); };
 }
 
@@ -31,7 +31,7 @@ Action declare_completion(CommandLine& line) {
 
 Command completion_command() {
   return {"", "completion",
-          "Print a script with which a shell completes commands, options and keys",
+          "Print a completion script for a shell: commands, options and keys",
           declare_completion};
 }
 

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "app/command_line/command.h"
+#include "app/command_line/command_reference.h"
 #include "app/command_line/manual.h"
 #include "app/support/print.h"
 #include "io/base/atomic_file.h"
@@ -13,6 +14,7 @@ namespace {
 struct ManualRequest {
   std::vector<std::string> words;  // of the command: "eval", "map"; empty: the program's own page
   std::string all;                 // --all DIR: every page, as files
+  bool markdown = false;           // --markdown: docs/reference/commands.md
 };
 
 ExitCode write_all(const std::string& folder) {
@@ -38,13 +40,20 @@ ExitCode print_page(const std::vector<std::string>& words) {
                     "`" + name + "`", ""});
 }
 
+ExitCode print_reference() {
+  print_out("%s", make_command_reference(program_text(), describe_commands(all_commands())).c_str());
+  return ExitCode::done;
+}
+
 Action declare_manual(CommandLine& line) {
   const auto request = std::make_shared<ManualRequest>();
-  line.add("command", request->words, "The command, as in: eval map; none: of the program itself")
+  line.add("command", request->words, "The command, as in: eval map; without it: the page of the program")
       .metavar("COMMAND");
   line.add("--all", request->all, "Write the pages of all commands into this folder instead")
       .metavar("DIR");
+  line.add_flag("--markdown", request->markdown, "Print one page of all commands in Markdown instead");
   return [request] {
+    if (request->markdown) return print_reference();
     return request->all.empty() ? print_page(request->words) : write_all(request->all);
   };
 }

@@ -47,7 +47,7 @@ void warn_of_empty(const Files& splits, const FinishedBatch& batch, const SplitS
 
 Files make_batch_files(const PackRequest& request) {
   if (request.settings)
-    throw InputError({request.folder, 0, "--settings", "settings are of one run, and this is a batch", "", "",
+    throw InputError({request.folder, 0, "--settings", "settings belong to one run, and this is a batch", "", "",
                       "give the folder of a run in it"});
   const FinishedBatch batch = open_finished_batch(request.folder);
   Files files;
@@ -78,17 +78,19 @@ ExitCode pack(PackRequest request) {
 
 Action declare_pack(CommandLine& line) {
   const auto request = std::make_shared<PackRequest>();
-  line.add("folder", request->folder, "The output folder of a run or of a batch").required();
+  line.add("folder", request->folder, "The output folder of a run or of a batch").required().metavar("DIR");
   const Option card =
       line.add_flag("--card", request->card,
-                    "Write README.md, a card that describes the dataset and how to make it again");
+                    "Write README.md, a card that describes the dataset and its reproduction");
   line.add_flag(
       "--settings", request->settings,
       "Write settings/ for ORB-SLAM3, OpenVINS, Kalibr, RTAB-Map, evo, RViz and Foxglove");
   line.add("--title", request->text.title, "Title of the card")
-      .shows_default_text("the script's name and the seed")
+      .shows_default_text("the name of the script and the seed")
+      .metavar("TEXT")
       .needs(card);
   line.add("--licence", request->text.licence, "Licence of the dataset, as in CC-BY-4.0")
+      .metavar("NAME")
       .needs(card);
   line.add("--splits", request->splits, "Shares of training, validation and test seeds, in percent")
       .shows_default_text("80,10,10")

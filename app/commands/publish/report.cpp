@@ -29,8 +29,8 @@ ExitCode write_report(const ReportRequest& request) {
 
 Action declare_report(CommandLine& line) {
   const auto request = std::make_shared<ReportRequest>();
-  line.add("folder", request->folder, "The output folder of a batch").required();
-  line.add("--out", request->out, "The page")
+  line.add("folder", request->folder, "The output folder of a batch").required().metavar("DIR");
+  line.add("--out", request->out, "Output page")
       .shows_default_text("FOLDER/report.html")
       .metavar("FILE");
   line.add("--pictures", request->options.pictures, "Largest number of runs with pictures")

@@ -36,30 +36,30 @@ ExitCode write_page(const ViewRequest& request) {
 
 Action declare_view(CommandLine& line) {
   const auto request = std::make_shared<ViewRequest>();
-  line.add("folder", request->folder, "The output folder of a run").required();
-  line.add("--out", request->out, "The page")
+  line.add("folder", request->folder, "The output folder of a run").required().metavar("DIR");
+  line.add("--out", request->out, "Output page")
       .shows_default_text("FOLDER/view.html")
       .metavar("FILE");
   line.add("--frames", request->options.frames,
-           "Largest number of pictures, evenly spaced over the flight")
+           "Largest number of pictures, evenly spaced along the path")
       .shows_default()
       .between(0, 10000);
   line.add("--width", request->options.width, "Width of a picture, in pixels")
       .shows_default()
       .between(32, 4000);
   line.add("--triangles", request->options.triangles,
-           "Approximate largest number of triangles of all pieces together")
+           "Approximate largest number of triangles of all pieces")
       .shows_default()
       .between(1000, 100'000'000);
   add_packs_option(line, request->asset_packs,
-                   "A folder with packs of the run, if they were moved");
+                   "Folder of an asset pack of the run, if it was moved");
   return [request] { return write_page(*request); };
 }
 
 }  // namespace
 
 Command view_command() {
-  return {"", "view", "Write a web page that shows a dataset in 3-D: pile, voids, flight",
+  return {"", "view", "Write a web page that shows a dataset in 3-D: pile, voids, path",
           declare_view};
 }
 

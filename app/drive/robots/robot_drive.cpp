@@ -39,7 +39,7 @@ RobotDrive::RobotDrive(const ResolvedMission& mission, const PileState& pile, co
     seen_.models.push_back(made_[i].model);
     if (i == driven_ || scenario_.robots[i].control == 0) continue;
     throw InputError({"", 0, "robots[" + std::to_string(i + 1) + "].control",
-                      "a function cannot be kept with what is driven", "`drive`, or a mission without this robot",
+                      "a controller function cannot run during a drive", "`drive`, or a mission without this robot",
                       "a function", "--robot " + names_[i] + " drives this one"});
   }
   ride_ = scenario_.trajectory.ride;

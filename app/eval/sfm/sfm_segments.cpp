@@ -50,7 +50,7 @@ SfmSegment make_segment(ColmapModel model, const SfmGroundTruth& truth,
   for (const ColmapImage& image : model.images) {
     const auto found = frame_of.find(image.name);
     if (found == frame_of.end())
-      throw InputError({model.folder, 0, "", "has an image that the dataset has not",
+      throw InputError({model.folder, 0, "", "has an image that is not in the dataset",
                         "names as in " + truth.model.folder, image.name,
                         "is this model of another dataset?"});
     if (!seen.insert(found->second).second)

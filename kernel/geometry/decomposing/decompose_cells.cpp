@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <map>
 #include <stdexcept>
@@ -39,6 +40,27 @@ const std::array<Vec3, kFine>& directions() {
   return all;
 }
 
+// Half of them, and the place of each and of its opposite in the list.
+struct Axes {
+  std::array<double, kFine / 2> x{}, y{}, z{};
+  std::array<std::size_t, kFine / 2> along{}, against{};
+};
+const Axes& axes() {
+  static const Axes all = [] {
+    Axes list;
+    std::size_t n = 0;
+    for (std::size_t d = 0; d < kFine; ++d)
+      for (std::size_t e = d + 1; e < kFine; ++e)
+        if (directions()[e] == -directions()[d]) {
+          const Vec3& v = directions()[d];
+          list.x[n] = v.x, list.y[n] = v.y, list.z[n] = v.z, list.along[n] = d, list.against[n] = e;
+          ++n;
+        }
+    return list;
+  }();
+  return all;
+}
+
 // How many planes across an axis are tried.
 struct Choice {
   int even;             // that cut the box into so many equal slabs
@@ -51,11 +73,17 @@ struct Extremes {
   std::array<double, kFine> heights{};
   Points points;  // by direction; empty: of no points
 
+  void keep(std::size_t direction, double height, const Vec3& p) {
+    if (height > heights[direction]) heights[direction] = height, points[direction] = p;
+  }
   void add(const Vec3& p) {
     if (points.empty()) points.assign(kFine, p), heights.fill(-1e300);
-    for (std::size_t d = 0; d < kFine; ++d) {
-      const double height = dot(directions()[d], p);
-      if (height > heights[d]) heights[d] = height, points[d] = p;
+    const Axes& half = axes();
+    std::array<double, kFine / 2> along;
+    for (std::size_t a = 0; a < kFine / 2; ++a) along[a] = half.x[a] * p.x + half.y[a] * p.y + half.z[a] * p.z;
+    for (std::size_t a = 0; a < kFine / 2; ++a) {
+      keep(half.along[a], along[a], p);
+      keep(half.against[a], -along[a], p);
     }
   }
   void add(const Extremes& other) {
@@ -67,6 +95,27 @@ struct Extremes {
     for (std::size_t d = 0; d < kFine; ++d)
       if (other.heights[d] > heights[d]) heights[d] = other.heights[d], points[d] = other.points[d];
   }
+};
+
+// Extremes of many points, most of which come several times: triangles share their corners.
+class ExtremesOfSurface {
+ public:
+  explicit ExtremesOfSurface(Extremes& extremes) : extremes_(extremes) {}
+
+  void add(const Vec3& p) {
+    std::array<std::uint64_t, 3> bits;
+    std::memcpy(bits.data(), &p.x, sizeof p.x), std::memcpy(&bits[1], &p.y, sizeof p.y), std::memcpy(&bits[2], &p.z, sizeof p.z);
+    const std::uint64_t mixed = (bits[0] * 3 + bits[1] * 5 + bits[2] * 7) * 0x9e3779b97f4a7c15u;
+    Vec3& last = last_[mixed >> (64 - kBits)];
+    if (is_first_ || !(last == p)) extremes_.add(p), last = p;
+    if (is_first_) last_.fill(p), is_first_ = false;
+  }
+
+ private:
+  static constexpr int kBits = 8;
+  Extremes& extremes_;
+  std::array<Vec3, 1 << kBits> last_;  // that were added, by the bits of their numbers
+  bool is_first_ = true;
 };
 
 // Convex polygons of the surface, one after the other.
@@ -283,7 +332,8 @@ class Cutter {
         split(rest, axis, planes[i], slab, above);
       else
         slab = std::move(rest);
-      for (const Vec3& p : slab.points) slabs[i].add(p);
+      ExtremesOfSurface extremes(slabs[i]);
+      for (const Vec3& p : slab.points) extremes.add(p);
       rest = std::move(above);
     }
     std::vector<Extremes> above(slabs.size());

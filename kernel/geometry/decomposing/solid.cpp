@@ -13,6 +13,7 @@ namespace {
 // Places of lines within their columns: a sequence that is even in the plane (Roberts 2018, "R2"), so that
 // faces along a row of lines are met in due proportion. Steps in 32 bits.
 constexpr double kMostCells = 768;  // along one side
+constexpr int kTile = 8;            // columns along each side of a tile, which share a choice of planes
 constexpr std::uint32_t kStepX = 3242174889u, kStepY = 2447445414u;
 
 struct Crossing {
@@ -54,6 +55,57 @@ void clip_line(const std::vector<HullPlane>& planes, double x, double y, double&
     if (low > high) return;
   }
 }
+
+// The planes that bound a hull on some line along z through a rectangle: few of those of a round hull. Empty: no line
+// through it meets the hull. What they give is what all planes give, to the last bit.
+class PlanesOfTile {
+ public:
+  PlanesOfTile(const std::vector<HullPlane>& planes, const Aabb& hull) : all_(planes), hull_(hull) {
+    const double x = std::max(std::fabs(hull.min.x), std::fabs(hull.max.x)), y = std::max(std::fabs(hull.min.y), std::fabs(hull.max.y));
+    for (const HullPlane& plane : planes) {
+      const double z = std::fabs(plane.normal.z), sum = std::fabs(plane.offset) + std::fabs(plane.normal.x) * 2 * x + std::fabs(plane.normal.y) * 2 * y;
+      slacks_.push_back(kSlack * (z > 0 ? sum / z : sum));
+    }
+    ranges_.resize(planes.size());
+  }
+
+  void find(double x0, double x1, double y0, double y1, std::vector<HullPlane>& near) {
+    near.clear();
+    double low = hull_.min.z, high = hull_.max.z;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      const HullPlane& plane = all_[i];
+      const double ax = plane.normal.x * x0, bx = plane.normal.x * x1, ay = plane.normal.y * y0, by = plane.normal.y * y1;
+      double least = plane.offset - std::max(ax, bx) - std::max(ay, by), most = plane.offset - std::min(ax, bx) - std::min(ay, by);
+      if (plane.normal.z > 0) {
+        least = least / plane.normal.z - slacks_[i], most = most / plane.normal.z + slacks_[i];
+        high = std::min(high, most);
+      } else if (plane.normal.z < 0) {
+        std::swap(least, most);
+        least = least / plane.normal.z - slacks_[i], most = most / plane.normal.z + slacks_[i];
+        low = std::max(low, least);
+      } else if (most < -slacks_[i]) {
+        return;
+      }
+      ranges_[i] = {least, most};
+    }
+    if (low > high) return;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      const double z = all_[i].normal.z;
+      if (z > 0 ? ranges_[i].least <= high : z < 0 ? ranges_[i].most >= low : ranges_[i].least < slacks_[i]) near.push_back(all_[i]);
+    }
+    if (near.empty()) near.push_back(all_.front());
+  }
+
+ private:
+  static constexpr double kSlack = 1e-14;  // of a height: more than its rounding
+  struct Range {
+    double least, most;  // of the heights of a plane over the rectangle
+  };
+  const std::vector<HullPlane>& all_;
+  Aabb hull_;
+  std::vector<double> slacks_;
+  std::vector<Range> ranges_;
+};
 
 }  // namespace
 
@@ -125,6 +177,11 @@ void Solid::note_distances() {
     if (state_[i] != kOutside || nearest[i] == kNoSeed) continue;
     const double far = distance(grid_.centre(i), grid_.centre(seeds[nearest[i]]));
     distance_[i] = float(std::max(0.0, far - 0.5 * grid_.voxel));
+  }
+  most_distance_.assign(columns(), 0);
+  for (std::size_t i = 0; i < distance_.size(); ++i) {
+    float& most = most_distance_[i % columns()];
+    most = std::max(most, distance_[i]);
   }
 }
 
@@ -218,12 +275,14 @@ bool Solid::contains(const Vec3& point) const {
   return depth > 0;
 }
 
-double Solid::largest_distance(std::size_t column, double low, double high) const {
+// Or `least`, where it is larger.
+double Solid::largest_distance(std::size_t column, double low, double high, double least) const {
+  if (double(most_distance_[column]) <= least) return least;
   const double first = (low - grid_.corner.z) / grid_.voxel - 0.5, last = (high - grid_.corner.z) / grid_.voxel - 0.5;
   const int begin = std::max(0, int(std::ceil(first))), end = std::min(grid_.size[2] - 1, int(std::floor(last)));
   float largest = 0;
   for (int k = begin; k <= end; ++k) largest = std::max(largest, distance_[column + columns() * std::size_t(k)]);
-  return double(largest);
+  return std::max(double(largest), least);
 }
 
 // hulls: ascending, apart from each other.
@@ -235,35 +294,55 @@ void Solid::add_line(std::size_t column, const Intervals& hulls, Misfit& sum) co
     for (const Interval* s = solid; s != last; ++s) {
       const double low = std::max(from, double(s->low)), high = std::min(double(hull.high), double(s->high));
       if (low >= high) continue;
-      if (low > from) sum.outside += low - from, sum.gap = std::max(sum.gap, largest_distance(column, from, low));
+      if (low > from) sum.outside += low - from, sum.gap = largest_distance(column, from, low, sum.gap);
       shared += high - low;
       from = high;
     }
     if (double(hull.high) > from) {
       sum.outside += double(hull.high) - from;
-      sum.gap = std::max(sum.gap, largest_distance(column, from, double(hull.high)));
+      sum.gap = largest_distance(column, from, double(hull.high), sum.gap);
     }
   }
   for (const Interval* s = solid; s != last; ++s) whole += double(s->high) - double(s->low);
   sum.inside += whole - shared;
 }
 
-Misfit Solid::measure(const Hull& hull) const {
+// visit: what is done with the part of each column's line within the hull, row by row.
+template <class Visit>
+void Solid::for_each_line(const Hull& hull, const Visit& visit) const {
   const std::vector<HullPlane> planes = calc_planes(hull);
   Aabb box;
   for (const Vec3& p : hull.points) box.include(p);
-  const Cell low = grid_.find_cell(box.min), high = grid_.find_cell(box.max);
-  Misfit sum;
-  Intervals line(1);
-  for (int j = std::max(0, low[1]); j <= std::min(high[1], grid_.size[1] - 1); ++j)
-    for (int i = std::max(0, low[0]); i <= std::min(high[0], grid_.size[0] - 1); ++i) {
+  Cell low = grid_.find_cell(box.min), high = grid_.find_cell(box.max);
+  for (std::size_t k = 0; k < 2; ++k) low[k] = std::max(0, low[k]), high[k] = std::min(high[k], grid_.size[k] - 1);
+  PlanesOfTile planes_of_tile(planes, box);
+  std::vector<std::vector<HullPlane>> tiles(std::size_t(std::max(0, high[0] - low[0])) / kTile + 1);
+  for (int j = low[1]; j <= high[1]; ++j) {
+    if ((j - low[1]) % kTile == 0) {
+      for (std::size_t t = 0; t < tiles.size(); ++t) {
+        const double x = grid_.corner.x + (low[0] + int(t) * kTile) * grid_.voxel, y = grid_.corner.y + j * grid_.voxel;
+        const double margin = 0.01 * grid_.voxel, width = kTile * grid_.voxel + margin;
+        planes_of_tile.find(x - margin, x + width, y - margin, y + width, tiles[t]);
+      }
+    }
+    for (int i = low[0]; i <= high[0]; ++i) {
+      const std::vector<HullPlane>& tile = tiles[std::size_t((i - low[0]) / kTile)];
+      if (tile.empty()) continue;
       const std::size_t column = grid_.index({i, j, 0});
       double from = box.min.z, to = box.max.z;
-      clip_line(planes, double(line_x_[column]), double(line_y_[column]), from, to);
-      if (from >= to) continue;
-      line[0] = {float(from), float(to)};
-      add_line(column, line, sum);
+      clip_line(tile, double(line_x_[column]), double(line_y_[column]), from, to);
+      if (from < to) visit(column, Interval{float(from), float(to)});
     }
+  }
+}
+
+Misfit Solid::measure(const Hull& hull) const {
+  Misfit sum;
+  Intervals line(1);
+  for_each_line(hull, [&](std::size_t column, const Interval& part) {
+    line[0] = part;
+    add_line(column, line, sum);
+  });
   sum.outside *= grid_.voxel * grid_.voxel;
   sum.inside = 0;
   return sum;
@@ -271,19 +350,8 @@ Misfit Solid::measure(const Hull& hull) const {
 
 Misfit Solid::measure(const std::vector<Hull>& hulls) const {
   std::vector<Intervals> lines(columns());
-  for (const Hull& hull : hulls) {
-    const std::vector<HullPlane> planes = calc_planes(hull);
-    Aabb box;
-    for (const Vec3& p : hull.points) box.include(p);
-    const Cell low = grid_.find_cell(box.min), high = grid_.find_cell(box.max);
-    for (int j = std::max(0, low[1]); j <= std::min(high[1], grid_.size[1] - 1); ++j)
-      for (int i = std::max(0, low[0]); i <= std::min(high[0], grid_.size[0] - 1); ++i) {
-        const std::size_t column = grid_.index({i, j, 0});
-        double from = box.min.z, to = box.max.z;
-        clip_line(planes, double(line_x_[column]), double(line_y_[column]), from, to);
-        if (from < to) lines[column].push_back({float(from), float(to)});
-      }
-  }
+  for (const Hull& hull : hulls)
+    for_each_line(hull, [&](std::size_t column, const Interval& part) { lines[column].push_back(part); });
   Misfit sum;
   for (std::size_t column = 0; column < columns(); ++column) {
     Intervals& line = lines[column];

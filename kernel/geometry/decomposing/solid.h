@@ -50,13 +50,16 @@ class Solid {
   const Interval* begin(std::size_t column) const { return intervals_.data() + starts_[column]; }
   const Interval* end(std::size_t column) const { return intervals_.data() + starts_[column + 1]; }
   void add_line(std::size_t column, const Intervals& hulls, Misfit& sum) const;
-  double largest_distance(std::size_t column, double low, double high) const;
+  double largest_distance(std::size_t column, double low, double high, double least) const;
+  template <class Visit>
+  void for_each_line(const Hull& hull, const Visit& visit) const;
 
   VoxelGrid grid_;
   bool exact_ = false;
   double volume_ = 0;
   std::vector<std::uint8_t> state_;     // of each cell
   std::vector<float> distance_;         // of the centre of each cell from the mesh, 0 inside; unit: m
+  std::vector<float> most_distance_;    // of each column of cells; unit: m
   std::vector<float> line_x_, line_y_;  // of each column of cells: its line; unit: m
   std::vector<Interval> intervals_;     // of the inside, by column, ascending
   std::vector<std::uint32_t> starts_;   // of each column's intervals; one more at the end

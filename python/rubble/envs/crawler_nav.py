@@ -1,21 +1,45 @@
-"""rubble/CrawlerNav-v0: a tracked crawler in contact with a settled pile drives to a goal on the ground.
+"""rubble/CrawlerNav-v0: a tracked crawler, in contact with a fixed pile, drives to a goal on the ground.
 
-Action: Box(-1, 1, (4,)): forwards (of `speed`), turning to the left (of `turn_rate`), and the front and the rear
-flippers (of 1.2 rad, positive raised), for `period` seconds.
+The crawler starts beside the pile and faces it. The goal is on the other side.
 
-Observation: dict of
-  scan    (rays,) float32: distances to pile and ground all round, from 0.25 m above the base in its own plane,
-          counter-clockwise from straight ahead, max_range where nothing is nearer; m
-  goal    (3,) float32: distance (m), and cosine and sine of the bearing in the plane of the base
-  tilt    (3,) float32: what of the world's vertical lies along the base's X, Y, Z axis
-  joints  (4,) float32: angles of the flippers; rad
-  motion  (6,) float32: velocity of the base and its turning, in its own axes; m/s, rad/s
+Action:
+  0  forward velocity, in units of `speed`
+  1  turn rate to the left, in units of `turn_rate`
+  2  angle of the front flippers, in units of 1.2 rad; positive: raised
+  3  angle of the rear flippers, in units of 1.2 rad; positive: raised
 
-Reward of a step: the metres that it came nearer to the goal, less 0.01, and 10 at the goal. The episode ends
-(terminated) within `reach` of the goal, when the base lies on its back or side, and when it left the world; it is
-cut off (truncated) after max_steps. info["goal_reached"] says which.
+Observation:
+  goal  distance (m), cosine and sine of the bearing, in the plane of the base
+  joints  flipper angles; rad
+  motion  linear velocity (m/s) and angular velocity (rad/s) of the base, in its axes
+  scan  distances to pile and ground, counter-clockwise from straight ahead, 0.25 m above the base and in its plane; `max_range` without a surface; m
+  tilt  vertical components of the X, Y and Z axes of the base
 
-The pile stands like rock, so that scans stay true. As in VoidExplore, the episode's seed alone decides it.
+Reward:
+  +1 x distance  metres that the crawler comes nearer to the goal
+  -0.01  every step
+  +10  at the goal
+
+End:
+  terminated  within `reach` of the goal; or the base lies on its back or side; or the crawler has left the world
+  truncated  after `max_steps` steps
+
+Info:
+  pile_seed  seed of the pile, from reset()
+  goal_reached  the goal is within `reach`
+
+Arguments:
+  mission  mission of the pile, as Lua text
+  pile_seeds  seeds from which each episode draws its pile
+  speed  largest forward velocity; m/s
+  turn_rate  largest turn rate; rad/s
+  period  duration of a step; s
+  max_steps  longest episode, in steps
+  reach  distance at which the goal is reached; m
+  around  distance of start and goal from the circle around the pile; m
+  rays  number of rays of the scan
+  max_range  range of the scan; m
+  threads  number of threads; results do not depend on it
 """
 import numpy as np
 

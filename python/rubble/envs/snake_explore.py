@@ -1,21 +1,44 @@
-"""rubble/SnakeExplore-v0: a snake of 16 modules, in contact with a settled pile that stands like rock, explores a
-void of it. It starts on the ground, straight, its head towards an entrance of the void.
+"""rubble/SnakeExplore-v0: a snake of 16 modules, in contact with a fixed pile, explores a void of the pile.
 
-Action: Box(-1, 1, (15,)): the targets of the joints, from head to tail, of 1.2 rad, for `period` seconds.
+The snake starts straight on the ground, with its head towards an entrance of the largest void. A camera is in its head.
 
-Observation: dict of
-  depth   (size, size) float32, m along the optical axis of a camera in the head, max_range where nothing is nearer
-  head    (7,) float32: forwards, left and up since the start (m, in the frame of the start), and of the head's X and
-          Z axis what lies along the world's vertical, and the cosine and sine of its heading from that of the start
-  joints  (15,) float32: angles; rad
-  speeds  (15,) float32: of the joints; rad/s
-  torques (15,) float32: of the motors; N m
-  touch   (16,) float32: how hard each module is pressed on; N
+Action:
+  0 to 14  target angles of the joints, from head to tail, in units of 1.2 rad
 
-Reward of a step: 100 times the share of the void's cells that the camera sees for the first time, 1 for every metre
-that the head comes nearer to the entrance until it has been within 0.3 m of it, less 0.01. The episode ends
-(terminated) when `enough` of the void has been seen, and when the snake left the world; it is cut off (truncated)
-after max_steps. As in VoidExplore, the episode's seed alone decides it.
+Observation:
+  depth  depth along the optical axis; `max_range` without a surface; m
+  head  forward, left and up since the start, in the frame of the start (m); vertical components of the X and Z axes of the head; cosine and sine of its heading since the start
+  joints  joint angles; rad
+  speeds  joint speeds; rad/s
+  torques  motor torques; N m
+  touch  contact force on each module; N
+
+Reward:
+  +100 x share  share of the cells of the void that the camera sees for the first time
+  +1 x distance  metres that the head comes nearer to the entrance, until it has been within 0.3 m
+  -0.01  every step
+
+End:
+  terminated  the share `enough` of the void has been seen, or the snake has left the world
+  truncated  after `max_steps` steps
+
+Info:
+  pile_seed  seed of the pile, from reset()
+  coverage  share of the void that has been seen
+  entered  the head has been within 0.3 m of the entrance
+
+Arguments:
+  mission  mission of the pile, as Lua text
+  pile_seeds  seeds from which each episode draws its pile
+  radius  radius of the ball that defines the void; m
+  size  width and height of the depth image; pixel
+  fov_deg  field of view; degree
+  max_range  range of the depth camera; m
+  period  duration of a step; s
+  max_steps  longest episode, in steps
+  enough  share of the void at which the episode ends
+  voxel  edge of the cells of the void; m
+  threads  number of threads; results do not depend on it
 """
 import math
 

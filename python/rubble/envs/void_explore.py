@@ -1,22 +1,48 @@
 """rubble/VoidExplore-v0: a flying ball with a depth camera explores a void of a settled pile.
 
-Action: Box(-1, 1, (4,)): forwards, left, up (at most `speed`) and turning to the left (at most `turn_rate`),
-for `period` seconds. The body stops where it would come nearer to a surface than its radius.
+The ball starts at the entrance of the largest void. It stops before it comes nearer to a surface than its radius.
 
-Observation: dict of
-  depth      (size, size) float32, m along the optical axis, max_range where nothing is nearer;
-  pose       (4,) float32: forwards, left and up since the start (m, in the frame of the start), yaw (rad);
-  clearance  (1,) float32: how far the body's centre is from everything solid, m;
-  rgb        (size, size, 3) uint8, with colour=True: as `rubble run` draws it. Needs EGL, and the light of each pile
-             is baked when it is first used.
+Action:
+  0  forward velocity, in units of `speed`
+  1  velocity to the left, in units of `speed`
+  2  upward velocity, in units of `speed`
+  3  turn rate to the left, in units of `turn_rate`
 
-Reward of a step: 100 times the share of the void's cells that the camera sees for the first time, less 0.01,
-less 0.1 where the body was stopped. A cell is seen when a ray of the depth picture passes it before it meets a
-surface, within max_range. The episode ends (terminated) when `enough` of the void has been seen, and is
-cut off (truncated) after max_steps.
+Observation:
+  clearance  distance from the centre of the ball to the nearest surface; m
+  depth  depth along the optical axis; `max_range` without a surface; m
+  pose  forward, left and up since the start, in the frame of the start (m); yaw (rad)
+  rgb  colour image, only with `colour`; needs EGL
 
-The pile of an episode is drawn from pile_seeds by the episode's own seed, which alone decides the episode:
-not those before it, nor the process, nor the threads. Piles are settled once and kept in memory.
+Reward:
+  +100 x share  share of the cells of the void that the camera sees for the first time
+  -0.01  every step
+  -0.1  the ball was stopped before a surface
+
+End:
+  terminated  the share `enough` of the void has been seen
+  truncated  after `max_steps` steps
+
+Info:
+  pile_seed  seed of the pile, from reset()
+  coverage  share of the void that has been seen
+  stops  number of steps in which the ball was stopped
+
+Arguments:
+  mission  mission of the pile, as Lua text
+  pile_seeds  seeds from which each episode draws its pile
+  radius  radius of the ball; m
+  size  width and height of the images; pixel
+  fov_deg  field of view; degree
+  max_range  range of the depth camera; m
+  speed  largest velocity along each axis; m/s
+  turn_rate  largest turn rate; rad/s
+  period  duration of a step; s
+  max_steps  longest episode, in steps
+  enough  share of the void at which the episode ends
+  voxel  edge of the cells of the void; m
+  colour  adds `rgb`; the light of each pile is baked at its first use
+  threads  number of threads; results do not depend on it
 """
 import numpy as np
 

@@ -6,8 +6,8 @@ return function(given)
   local o = rubble.options("rubble.collapse.curtain", given, rubble.structure_options {
     { "length", 5, min = 0.5, max = 50, unit = "m", doc = "Length of the panel, along Y." },
     { "storey_height", 2.6, min = 0.3, max = 20, unit = "m", doc = "Height of the panel in one storey." },
-    { "storeys", 1, type = "integer", min = 1, max = 20, doc = "Number of storeys that it hung on." },
-    { "block", "cinder_block", doc = "The asset that the panel was built of, with its length along X." },
+    { "storeys", 1, type = "integer", min = 1, max = 20, doc = "Number of storeys of the panel." },
+    { "block", "cinder_block", doc = "Asset of the blocks of the panel, with its length along X." },
     { "block_size", { 0.39, 0.19, 0.19 }, above = 0, max = 5, unit = "m", doc = "Size of this asset." },
     { "missing", 0.1, min = 0, max = 0.9, doc = "Share of the blocks that are missing in the heap." },
     { "wall_thickness", 0.3, min = 0.1, max = 5, unit = "m", doc = "Thickness of the frame that still stands." },

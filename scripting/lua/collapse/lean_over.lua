@@ -12,7 +12,7 @@ return function(given)
     { "thickness", 0.2, min = 0.05, max = 2, unit = "m", doc = "Thickness of floors and walls." },
     { "lean_deg", 30, min = 10, max = 90, unit = "degree", doc = "Angle by which the frame has turned." },
     { "storeys", 1, type = "integer", min = 1, max = 30, doc = "Number of rooms, one above another." },
-    { "neighbour", true, doc = "Whether the frame leans on the wall of a building beside it." },
+    { "neighbour", true, doc = "The frame leans on the wall of a building beside it." },
   })
   local placed, t = {}, o.thickness
   -- A box of the upright frame, whose base edge is at x = 0, z = 0, turned with it.

@@ -1,6 +1,6 @@
 -- rubble.robot.crawler: two tracks with moving contact surfaces, and four flippers.
 return function(given)
   return rubble.robot_options("crawler", given, {
-    { "flippers", true, doc = "Whether it has flippers." },
+    { "flippers", true, doc = "Has flippers." },
   })
 end

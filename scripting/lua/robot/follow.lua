@@ -1,16 +1,16 @@
 -- rubble.robot.follow: a controller that drives a robot with tracks or wheels along a path, by pure
--- pursuit (Coulter 1992, "Implementation of the pure pursuit path tracking algorithm"): it steers along
+-- pursuit (Coulter 1992, "Implementation of the pure pursuit path tracking algorithm"). It steers along
 -- the arc through the point of the path that is `lookahead` ahead of the robot.
 local name = "rubble.robot.follow"
 
 return function(given)
   local o = rubble.options(name, given, {
     { "path", {}, type = "table",
-      doc = "Points {x, y}; unit: m. With `truth` in the world, with `odometry` relative to the start of the robot." },
+      doc = "Points {x, y}, in the world, or with `odometry` relative to the start of the robot; unit: m." },
     { "speed", 0.3, min = 0.01, max = 5, unit = "m/s", doc = "Speed along the path." },
-    { "lookahead", 0.4, min = 0.05, max = 10, unit = "m", doc = "Lookahead distance; shorter: corners are cut less, and the robot oscillates more." },
+    { "lookahead", 0.4, min = 0.05, max = 10, unit = "m", doc = "Lookahead distance. A shorter one cuts corners less and oscillates more." },
     { "turn", 1, min = 0.05, max = 10, unit = "rad/s", doc = "Largest angular velocity." },
-    { "by", "truth", type = "choice", choices = { "truth", "odometry" }, doc = "How the robot is localized: by ground truth or by its odometry." },
+    { "by", "truth", type = "choice", choices = { "truth", "odometry" }, doc = "Localization by ground truth or by odometry." },
     { "flippers", {}, type = "table", doc = "Crawler: four flipper angles, constant during the run; unit: rad." },
   })
   if #o.path < 2 then
@@ -19,7 +19,7 @@ return function(given)
   end
   for i, p in ipairs(o.path) do
     if type(p) ~= "table" or type(p[1]) ~= "number" or type(p[2]) ~= "number" then
-      error(name .. ".path[" .. i .. "] is no point {x, y}", 2)
+      error(name .. ".path[" .. i .. "] is not a point {x, y}", 2)
     end
   end
 
@@ -28,7 +28,7 @@ return function(given)
   for i = 2, #o.path do
     local dx, dy = o.path[i][1] - o.path[i - 1][1], o.path[i][2] - o.path[i - 1][2]
     length[i] = length[i - 1] + math.sqrt(dx * dx + dy * dy)
-    if length[i] == length[i - 1] then error(name .. ".path[" .. i .. "] is the point before it", 2) end
+    if length[i] == length[i - 1] then error(name .. ".path[" .. i .. "] repeats the point before it", 2) end
   end
 
   -- How far along the path the robot is: the nearest point, not before the last one and not beyond the

@@ -1,17 +1,17 @@
--- rubble.robot.follow_the_gap: a controller that drives a robot with tracks or wheels to a goal among obstacles that
--- it knows from its scanner alone (Sezer and Gokasan 2012, "A novel obstacle avoidance method: Follow the Gap
--- Method"): of all directions that the robot fits through, it takes the one nearest to the goal.
+-- rubble.robot.follow_the_gap: a controller that drives a robot with tracks or wheels to a goal, around obstacles that
+-- only its scanner sees (Sezer and Gokasan 2012, "A novel obstacle avoidance method: Follow the Gap
+-- Method"). Of all directions that the robot fits through, it takes the one nearest to the goal.
 local name = "rubble.robot.follow_the_gap"
 
 return function(given)
   local o = rubble.options(name, given, {
-    { "goal", {}, type = "table", doc = "Where to, relative to the start of the robot: {ahead, to the left}; unit: m." },
-    { "scan", "scan", type = "string", doc = "Name of the 2-D scanner, which looks forwards. It must be in `senses`." },
-    { "half_width", 0.27, min = 0.05, max = 5, unit = "m", doc = "Half the width of the robot, with room to spare." },
-    { "look", 1.2, min = 0.2, max = 20, unit = "m", doc = "How far a way must be free." },
-    { "speed", 0.35, min = 0.01, max = 5, unit = "m/s", doc = "Forward velocity where the way is free." },
+    { "goal", {}, type = "table", doc = "Goal, relative to the start of the robot: {ahead, to the left}; unit: m." },
+    { "scan", "scan", type = "string", doc = "Name of the 2-D scanner, which faces forwards; one of `senses`." },
+    { "half_width", 0.27, min = 0.05, max = 5, unit = "m", doc = "Half the width of the robot, plus clearance." },
+    { "look", 1.2, min = 0.2, max = 20, unit = "m", doc = "Length over which a direction must be free." },
+    { "speed", 0.35, min = 0.01, max = 5, unit = "m/s", doc = "Forward velocity in free space." },
     { "turn", 1.2, min = 0.05, max = 10, unit = "rad/s", doc = "Largest angular velocity." },
-    { "near", 0.3, min = 0.01, max = 10, unit = "m", doc = "How near the goal is reached." },
+    { "near", 0.3, min = 0.01, max = 10, unit = "m", doc = "Distance at which the goal is reached." },
   })
   local ahead, aside = o.goal[1], o.goal[2]
   if type(ahead) ~= "number" or type(aside) ~= "number" then
@@ -57,7 +57,7 @@ return function(given)
     py = py + sense.odometry.linear * dt * math.sin(yaw)
     local scan = sense.lidars[o.scan]
     if not scan then return command end  -- nothing new
-    if not scan.ranges then error(name .. ": " .. o.scan .. " is no 2-D scanner", 2) end
+    if not scan.ranges then error(name .. ": " .. o.scan .. " is not a 2-D scanner", 2) end
     local dx, dy = ahead - px, aside - py
     local far = math.sqrt(dx * dx + dy * dy)
     if far < o.near then

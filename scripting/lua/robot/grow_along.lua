@@ -1,17 +1,16 @@
--- rubble.robot.grow_along: a controller that grows a vine along a path, by pure pursuit in space: what grows is
--- bent along the arc through the point of the path that is `lookahead` ahead of the tip. With `back`, it retracts
--- from there.
+-- rubble.robot.grow_along: a controller that grows a vine along a path, by pure pursuit in space: new links
+-- follow the arc through the point of the path that is `lookahead` ahead of the tip.
 local name = "rubble.robot.grow_along"
 
 return function(given)
   local o = rubble.options(name, given, {
-    { "path", {}, type = "table", doc = "Points {x, y, z} in the world, from the base on; unit: m." },
+    { "path", {}, type = "table", doc = "Points {x, y, z} in the world, starting at the base; unit: m." },
     { "speed", 0.2, min = 0.001, max = 1, unit = "m/s", doc = "Speed of growth." },
     { "lookahead", 0.5, min = 0.05, max = 10, unit = "m", doc = "Lookahead distance; shorter: sharper bends." },
-    { "curvature", 2, min = 0.01, max = 5, unit = "1/m", doc = "Largest curvature of what grows." },
+    { "curvature", 2, min = 0.01, max = 5, unit = "1/m", doc = "Largest curvature of new links." },
     { "stuck_after", 2, min = 0.1, max = 3600, unit = "s",
-      doc = "A tip that has not come on for this time is stuck: growth stops." },
-    { "back", false, doc = "Whether it retracts at the end of the path, and where it is stuck." },
+      doc = "Growth stops after this time without progress." },
+    { "back", false, doc = "Retracts at the end of the path, and after growth has stopped." },
   })
   if #o.path < 2 then
     rubble.reject(name, "path", "two points {x, y, z} or more", o.path)
@@ -19,7 +18,7 @@ return function(given)
   end
   for i, p in ipairs(o.path) do
     for k = 1, 3 do
-      if type(p) ~= "table" or type(p[k]) ~= "number" then error(name .. ".path[" .. i .. "] is no point {x, y, z}", 2) end
+      if type(p) ~= "table" or type(p[k]) ~= "number" then error(name .. ".path[" .. i .. "] is not a point {x, y, z}", 2) end
     end
   end
 
@@ -31,7 +30,7 @@ return function(given)
   for i = 2, #o.path do
     local leg = minus(o.path[i], o.path[i - 1])
     length[i] = length[i - 1] + math.sqrt(dot(leg, leg))
-    if length[i] == length[i - 1] then error(name .. ".path[" .. i .. "] is the point before it", 2) end
+    if length[i] == length[i - 1] then error(name .. ".path[" .. i .. "] repeats the point before it", 2) end
   end
 
   local function point_at(s)

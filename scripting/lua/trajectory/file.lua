@@ -1,6 +1,6 @@
 -- rubble.trajectory.file: a recorded path: a file in the format of TUM, EuRoC or KITTI, or one whose first
--- line names its columns: t, x, y, z and either qx, qy, qz, qw or roll_deg, pitch_deg, yaw_deg. What it was
--- read as is printed.
+-- line names its columns: t, x, y, z and either qx, qy, qz, qw or roll_deg, pitch_deg, yaw_deg. The detected
+-- format is printed.
 local name = "rubble.trajectory.file"
 
 return function(given)
@@ -8,7 +8,7 @@ return function(given)
     { "path", "", doc = "The file, in the folder of the script." },
     { "frame", nil, type = "choice", choices = { "as the format says", "optical", "body" },
       doc = "Frame of the orientations; TUM and KITTI files have the optical frame, others the body frame." },
-    { "columns", "", doc = "Names of the columns, of a file that does not name them: \"t [ns],x,y,z,qx,qy,qz,qw\"." },
+    { "columns", "", doc = "Names of the columns of a file that does not name them: \"t [ns],x,y,z,qx,qy,qz,qw\"." },
     { "interval", nil, type = "number", above = 0, max = 1000, unit = "s",
       doc = "Time between two poses of a file without stamps, such as KITTI's (0.1)." },
     { "every", 1, type = "integer", min = 1, max = 100000, doc = "Takes every n-th pose." },

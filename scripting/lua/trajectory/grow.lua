@@ -18,7 +18,7 @@ end
 return function(given)
   local o = rubble.options(name, given, rubble.trajectory_options {
     { "from", { -6, 0, 0.5 }, min = -1000, max = 1000, unit = "m", doc = "Start of the path." },
-    { "towards", { { 0, 0, 0.5 } }, type = "table", doc = "Points that it heads for, one after another: {{x, y, z}, ...}." },
+    { "towards", { { 0, 0, 0.5 } }, type = "table", doc = "Targets, one after another: {{x, y, z}, ...}." },
     { "pitch_deg", nil, type = "number", min = -90, max = 90, unit = "degree",
       doc = "Pitch at the start, positive: down; without pitch and yaw: towards the first point." },
     { "yaw_deg", nil, type = "number", min = -360, max = 360, unit = "degree", doc = "Yaw at the start." },

@@ -1,4 +1,4 @@
--- rubble.trajectory.orbit: a circle about a point, looking at it.
+-- rubble.trajectory.orbit: a circle around a point, with the view on this point.
 return function(given)
   local o = rubble.options("rubble.trajectory.orbit", given, rubble.trajectory_options {
     { "centre", { 0, 0, 0.5 }, min = -500, max = 500, unit = "m", doc = "Centre of the circle, and the point that is looked at." },

@@ -1,5 +1,5 @@
--- rubble.trajectory.spiral: a spiral about a vertical axis whose radius and height change, looking at
--- its centre.
+-- rubble.trajectory.spiral: a spiral around a vertical axis, with changing radius and height, and with the
+-- view on its centre.
 return function(given)
   local o = rubble.options("rubble.trajectory.spiral", given, rubble.trajectory_options {
     { "centre", { 0, 0, 0.5 }, min = -500, max = 500, unit = "m", doc = "The point that is looked at, on the axis." },

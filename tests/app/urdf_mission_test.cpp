@@ -1,0 +1,114 @@
+// Missions whose robots come from URDF files.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "app/robots/robot_files.h"
+#include "app/robots/robot_log.h"
+#include "kernel/robot/bundled.h"
+#include "tests/app/urdf_robots.h"
+
+namespace rubble::testing {
+namespace urdf_test {
+
+// A camera's link of the robot beside the frame of the mission's camera.
+TEST(Urdf, FramesOfRobotsDoNotClashWithThoseOfSensors) {
+  Scenario scenario;
+  scenario.robots.resize(1);
+  scenario.robots[0].name = "bot";
+  const auto with = [](std::string text, const std::string& name) {
+    for (std::size_t at = 0; (at = text.find("\"mast\"", at)) != std::string::npos; ++at) text.replace(at, 6, "\"" + name + "\"");
+    return text;
+  };
+  const auto record_of = [&](const std::string& name) {
+    return describe_robots(scenario, {read_robot(with(kCart, name))}).front();
+  };
+  EXPECT_EQ(record_of("mast").frame, "");
+  EXPECT_EQ(record_of("base_mast").frame_of(0), "base_footprint");
+  for (const char* taken : {"camera_link", "camera_optical_frame", "odom", "world"}) {
+    const RobotRecord record = record_of(taken);
+    EXPECT_EQ(record.frame, "bot/") << taken;
+    EXPECT_EQ(record.topic, "") << "topics are not frames";
+  }
+  EXPECT_EQ(record_of("/X1/mast").frame_named("/X1/mast"), "X1/mast") << "tf2 refuses slashes in front";
+  EXPECT_EQ(record_of("L\xc3\xb6we").frame_named("L\xc3\xb6we"), "L\xc3\xb6we");
+  scenario.imu.frame_id = "bot/mast";
+  EXPECT_EQ(record_of("mast").frame, "") << "bot/mast is another frame than mast";
+  scenario.imu.frame_id = "bot/camera_link";
+  EXPECT_THROW(record_of("camera_link"), InputError);
+}
+
+// Through the program: a mission with a file beside it, verified from its manifest.
+TEST(Urdf, AMissionDrivesARobotFromAFile) {
+  const ScratchFolder scratch;
+  write_robot_description(scratch.path().string(), "rover", make_rover());
+  write_file(scratch / "m.lua", R"(return rubble.mission { pile = { layers = 0 },
+    robots = { { urdf = "rover.urdf", name = "buggy", position = { 0, 0, 0.001 }, friction = 0.8,
+      left_wheels = { "front_left_wheel_joint", "rear_left_wheel_joint" },
+      right_wheels = { "front_right_wheel_joint", "rear_right_wheel_joint" }, wheel_radius = 0.098,
+      drive = { { t = 0, linear = 0.5 } } } },
+    robot_run = { duration = 2 }, camera = { width = 32, height = 32 },
+    trajectory = { rate_hz = 2, ride = { robot = "buggy", position = { 0.3, 0, 0.3 } } },
+    outputs = { bag = false, rawlog = false, simplemap = false } })");
+  const Outcome run = run_rubble("run " + (scratch / "m.lua") + " --out " + (scratch / "out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(read_file(scratch / "out/robots/buggy_odometry.csv").find("slip_left"), std::string::npos);
+  const Outcome verified = run_rubble("verify " + (scratch / "out"));
+  EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+}
+
+// One run with much of what files of the field have: Latin-1, a transmission, a mast without collision, a knee whose range
+// has no 0, a link with the name of the camera's frame.
+TEST(Urdf, AMissionDrivesARobotOfTheField) {
+  const ScratchFolder scratch;
+  const std::string moves = "<limit lower=\"-2.6\" upper=\"-0.8\" effort=\"20\" velocity=\"15\"/>";
+  std::string text = arm("revolute", moves, "<visual><geometry><box size=\"0.1 0.1 0.4\"/></geometry></visual>" + std::string(kArmMass));
+  text = "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>" + replaced(text, "robot name=\"r\"", "robot name=\"R\xe4upe\"");
+  text = replaced(text, "</robot>", "<link name=\"camera_link\"/><joint name=\"c\" type=\"fixed\"><parent link=\"base_link\"/>"
+                  "<child link=\"camera_link\"/></joint><transmission name=\"t\"><joint name=\"j\"/></transmission></robot>");
+  write_file(scratch / "r.urdf", text);
+  write_file(scratch / "m.lua", R"(return rubble.mission { pile = { layers = 0 },
+    robots = { { urdf = "r.urdf", name = "bot", position = { 0, 0, 0.4 }, start = { j = -1 } } },
+    robot_run = { duration = 0.1 }, camera = { width = 16, height = 16 },
+    trajectory = { rate_hz = 0.1, ride = { robot = "bot", link = "camera_link" } },
+    outputs = { rawlog = false, simplemap = false } })");
+  const Outcome run = run_rubble("run " + (scratch / "m.lua") + " --out " + (scratch / "out"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(text.find("<transmission")), '\n');
+  EXPECT_NE(run.err.find("r.urdf:" + std::to_string(line) + ": <transmission> is left out"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("its link `camera_link` has the name of another frame of the mission"), std::string::npos) << run.err;
+  EXPECT_NE(read_file(scratch / "out/robots/robots.json").find("\"model\": \"R\xc3\xa4upe\""), std::string::npos);
+  EXPECT_NE(read_file(scratch / "out/robots/package.xml").find("<name>rubble_robots</name>"), std::string::npos);
+  const std::string joints = read_file(scratch / "out/robots/bot_joints.csv");
+  EXPECT_NE(joints.find("j_position"), std::string::npos);
+  EXPECT_NE(joints.find(",-1,"), std::string::npos) << "the start: " << joints;
+  // More values than motors.
+  write_file(scratch / "n.lua", replaced(read_file(scratch / "m.lua"), "start = { j = -1 }", "drive = { { t = 0, joints = { -1, 2 } } }"));
+  const Outcome more = run_rubble("run " + (scratch / "n.lua") + " --out " + (scratch / "more"));
+  EXPECT_EQ(more.exit_code, 1);
+  EXPECT_NE(more.err.find("n.lua:2: robots[1].drive[1].joints: more values than the robot has motors at joints: expected 1 at most: j, "
+                          "found 2"), std::string::npos) << more.err;
+}
+
+// Where a user stands most often: files that the mission names have no folder in their path then.
+TEST(Urdf, AMissionIsRunFromItsOwnFolder) {
+  const ScratchFolder scratch;
+  write_robot_description(scratch.path().string(), "rover", make_rover());
+  write_file(scratch / "hill.obj", "v -4 -4 0.1\nv 4 -4 0.1\nv 4 4 0.1\nv -4 4 0.1\nv 0 0 0.4\n"
+                                   "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
+  write_file(scratch / "m.lua", R"(return rubble.mission {
+  pile = { layers = 1, pieces_per_layer = 3, terrain = { file = "hill.obj" } },
+  robots = { { urdf = "rover.urdf", name = "rover", position = { 0, -3, 1 } } }, robot_run = { duration = 0.1 },
+  camera = { width = 32, height = 24 },
+  trajectory = { waypoints = { { position = { -6, 0, 3 }, look_at = { 0, 0, 0 } } } },
+})");
+  const std::string command = "cd '" + scratch.path().string() + "' && '" RUBBLE_PROGRAM "' run m.lua --quiet --out out 2>err";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(status, 0) << read_file(scratch / "err");
+  EXPECT_TRUE(std::filesystem::exists(scratch / "out/manifest.json"));
+}
+
+}  // namespace urdf_test
+}  // namespace rubble::testing

@@ -1,0 +1,38 @@
+"""docs/reference/environments.md is what tools/environments_page.py makes of the environments."""
+import importlib.util
+import os
+import unittest
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+
+def load_tool():
+    spec = importlib.util.spec_from_file_location("environments_page", os.path.join(ROOT, "tools", "environments_page.py"))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+class Reference(unittest.TestCase):
+    def test_document_is_up_to_date(self):
+        with open(os.path.join(ROOT, "docs", "reference", "environments.md")) as file:
+            self.assertEqual(file.read(), load_tool().make_page(),
+                             "run: cmake --build build/release --target environments_reference")
+
+    def test_entries_that_do_not_exist_are_refused(self):
+        tool = load_tool()
+        tool.check_names("x", "Observation", ["depth"], {"depth": 0})
+        for described in ([], ["depth", "dept"]):
+            with self.assertRaisesRegex(ValueError, "describes"):
+                tool.check_names("x", "Observation", described, {"depth": 0})
+
+    def test_docstrings_without_their_form_are_refused(self):
+        tool = load_tool()
+        with self.assertRaisesRegex(ValueError, "no section"):
+            tool.parse("x/Y-v0: a title.\n\nAction:\n  0  forwards\n")
+        with self.assertRaisesRegex(ValueError, "expected lines"):
+            tool.parse("x/Y-v0: a title.\n\nAction:\n  forwards\n")
+
+
+if __name__ == "__main__":
+    unittest.main()

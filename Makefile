@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo gallery pictures film test check test-nightly test-asan test-tsan test-files fuzz faults pairs determinism platforms format clean
+.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo gallery pictures film test check test-nightly test-asan test-tsan test-files fuzz mutants faults pairs determinism platforms format clean
 
 PROGRAM := build/release/rubble
 # Tests have one thread each, so as many run at once as there are processors.
@@ -28,6 +28,7 @@ help:
 	@echo "make test-tsan  run the suite under ThreadSanitizer"
 	@echo "make test-files  try public robots, meshes and trajectories against figures of other programs (docs/development/reliability.md)"
 	@echo "make fuzz SECONDS=60  run every fuzz target for this time, two at once (docs/development/reliability.md)"
+	@echo "make mutants    break the code on purpose, one fault at a time: which tests notice? (half an hour)"
 	@echo "make faults     interrupt a small run at many places, continue it, compare the bytes (an hour)"
 	@echo "make pairs      any two features of a mission together, judged by their data; goes on where it stopped (docs/development/pairs.md)"
 	@echo "make determinism  compare hashes of other compilers, levels and processors (half an hour)"
@@ -163,6 +164,10 @@ fuzz: build
 	cmake --build --preset fuzz
 	tests/fuzz/make_corpus.py . $(PROGRAM) build/fuzz/seeds
 	tests/fuzz/run_fuzz.py build/fuzz build/fuzz/seeds $(SECONDS) $(TARGETS)
+
+# NAMES: some of the faults alone, as in NAMES=light_falls_with_distance.
+mutants: all
+	tests/mutants/run_mutants.py $(NAMES)
 
 # 200 kills, and 40 places of each call that can fail.
 faults: build

@@ -2,7 +2,9 @@
 """Breaks the code on purpose, one fault at a time, and says which tests notice: mutation testing by a list.
 
 usage: tests/mutants/run_mutants.py [--build build/release] [--list tests/mutants/mutants.json] [--report FILE] [NAME ...]
+       tests/mutants/run_mutants.py --check
     NAME: faults of the list; default: all that the report does not have yet
+    --check: only whether every fault still fits the code; builds nothing (a test runs this)
 
 Each fault replaces a piece of text in one file of the tree, builds one test program, and runs some of its suites, which
 must fail. The file is put back, whatever happens. Exit code 1: a fault went unnoticed, or no longer fits the code.
@@ -12,6 +14,7 @@ The list says of each fault: `name`, `file`, `from` (must stand there exactly on
 import argparse
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -25,7 +28,10 @@ def build(args, target):
 
 
 def environment(args):
-    return dict(os.environ, RUBBLE_CACHE=os.path.join(os.path.abspath(args.build), "cache-of-mutants"), RUBBLE_THREADS="1")
+    """As in `make test`: what a broken program left in the cache is not for the next one."""
+    cache = os.path.join(os.path.abspath(args.build), "cache-of-mutants")
+    shutil.rmtree(cache, ignore_errors=True)
+    return dict(os.environ, RUBBLE_CACHE=cache, RUBBLE_THREADS="1")
 
 
 def failed_tests(args, mutant):
@@ -43,12 +49,29 @@ def failed_tests(args, mutant):
     return failed
 
 
-def try_mutant(args, mutant):
+def read_source(mutant):
+    """The text of its file, and why the fault does not fit it; none: it does."""
     path = os.path.join(ROOT, mutant["file"])
+    if not os.path.exists(path):
+        return "", f"there is no {mutant['file']}"
     with open(path, encoding="utf-8") as file:
         text = file.read()
-    if text.count(mutant["from"]) != 1:
-        return "STALE", f"`from` stands {text.count(mutant['from'])} times in {mutant['file']}"
+    found = text.count(mutant["from"])
+    return text, "" if found == 1 else f"`from` stands {found} times in {mutant['file']}, not once: {mutant['from']!r}"
+
+
+def check_list(mutants):
+    faults = [f"{m['name']}: {fault}" for m in mutants for fault in [read_source(m)[1]] if fault]
+    if faults:
+        sys.exit("tests/mutants/mutants.json does not fit the code; put the same faults into the code as it is now:\n"
+                 + "\n".join(faults))
+
+
+def try_mutant(args, mutant):
+    path = os.path.join(ROOT, mutant["file"])
+    text, fault = read_source(mutant)
+    if fault:
+        return "STALE", fault
     try:
         with open(path, "w", encoding="utf-8") as file:
             file.write(text.replace(mutant["from"], mutant["to"]))
@@ -69,10 +92,13 @@ def main():
     parser.add_argument("--build", default=os.path.join(ROOT, "build/release"))
     parser.add_argument("--list", default=os.path.join(ROOT, "tests/mutants/mutants.json"))
     parser.add_argument("--report", help="keeps what was found, one JSON object a line; faults that it has are not tried again")
+    parser.add_argument("--check", action="store_true", help="only whether the list fits the code")
     parser.add_argument("names", nargs="*")
     args = parser.parse_args()
     with open(args.list, encoding="utf-8") as file:
         mutants = json.load(file)
+    if args.check:
+        return check_list(mutants)
     unknown = set(args.names) - {m["name"] for m in mutants}
     if unknown:
         sys.exit(f"no such faults: {', '.join(sorted(unknown))}; the list has: {', '.join(m['name'] for m in mutants)}")

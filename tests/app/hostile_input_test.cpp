@@ -69,9 +69,9 @@ TEST_F(HostileInput, ScriptsThatAreNotText) {
 
 TEST_F(HostileInput, FilesWithoutAnEnd) {
   expect_refused("check /dev/zero", "/dev/zero: is a device");
-  expect_refused("info /dev/zero", "/dev/zero: is no file");
+  expect_refused("info /dev/zero", "/dev/zero: cannot be inspected");
   ASSERT_EQ(mkfifo((scratch_ / "pipe").c_str(), 0600), 0);
-  expect_refused("info " + (scratch_ / "pipe"), "pipe: is no file");
+  expect_refused("info " + (scratch_ / "pipe"), "pipe: cannot be inspected");
   expect_refused("check " + (scratch_ / "pipe"), "pipe: is a pipe that nobody writes to");
   expect_refused("eval trajectory " + (scratch_ / "pipe") + " " + (scratch_ / "pipe"), "pipe: ");
 }

@@ -116,11 +116,11 @@ TEST_F(Pack, OfABatchHasItsSplitsInTheCardAndAsFiles) {
   EXPECT_IN("  v2_seed_6/pile.bin\n", read_file(folder + "/SHA256SUMS"));
   write_file(folder + "/v2_seed_6/pile.stl", "0");
   EXPECT_NE(std::system(check.c_str()), 0);
-  // One run of it says where it belongs; a split without a seed is named; settings are of one run.
+  // One run of it says where it belongs; a split without a seed is named; settings belong to one run.
   ASSERT_EQ(run_rubble("pack " + folder + "/v1_seed_3 --card").exit_code, 0);
   EXPECT_IN("Seed 3 is of `" + std::string(kSplits[std::size_t(split_of(3, {}))]) + "`.", read_file(folder + "/v1_seed_3/README.md"));
   EXPECT_IN("warning: splits/test.txt is empty", run_rubble("pack " + folder + " --card --force --splits 98,1,1").err);
-  EXPECT_IN("settings are of one run", run_rubble("pack " + folder + " --settings --force").err);
+  EXPECT_IN("settings belong to one run", run_rubble("pack " + folder + " --settings --force").err);
 }
 
 TEST_F(Pack, SettingsAreThoseOfTheMission) {

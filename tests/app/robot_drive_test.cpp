@@ -204,7 +204,7 @@ TEST(RobotDrive, MistakesAreNamed) {
   const char* const kWithFunction = R"(return rubble.mission { pile = { layers = 0 }, robots = {
     rubble.robot.rover { position = { 0, 0, 0.001 } },
     rubble.robot.rover { position = { 0, 2, 0.001 }, control = function() return {} end } } })";
-  EXPECT_NE(mistake("", kWithFunction).find("robots[2].control: a function cannot be kept"), std::string::npos);
+  EXPECT_NE(mistake("", kWithFunction).find("robots[2].control: a controller function cannot run during a drive"), std::string::npos);
   const char* const kTail = R"(return rubble.mission { pile = { layers = 0 }, robots = {
     rubble.robot.rover { position = { 0, 0, 0.001 }, drive = {
       { t = 0, joints = { 1 }, joint_names = { "tail" } } } } } })";

@@ -14,13 +14,13 @@ ONE_WITH_ODOMETRY = ("crawler", "rover", "cart", "team")
 REFUSED = [
     ("robots", but("robots", "none"), "record_settling", ["all", "window"], "robots start with the first frame"),
     ("robots", ["none"], "path", ["ride", "links"], "no robot has this name"),
-    ("robots", but("robots", *ONE_WITH_ODOMETRY), "rawlog", ["actions"], "actions are what one robot did by its odometry"),
+    ("robots", but("robots", *ONE_WITH_ODOMETRY), "rawlog", ["actions"], "actions need one robot with odometry"),
     ("start", ["after_2038"], "ros2", ["mcap"], "19 January 2038"),
-    ("shutter", ["blur"], "exposure", ["ideal"], "an ideal image takes no time"),
-    ("quality", ["reference"], "exposure", ["automatic"], "the paths of the reference cover the pixel already"),
+    ("shutter", ["blur"], "exposure", ["ideal"], "an ideal image has no exposure time"),
+    ("quality", ["reference"], "exposure", ["automatic"], "path tracing samples the pixel already"),
     ("surroundings", ["street"], "terrain", but("terrain", "none"), "the surroundings have their own ground"),
-    ("victims", ["one"], "record_settling", ["all", "window"], "victims lie in the pile only when it has settled"),
-    ("victims", ["one"], "track", ["on"], "victims lie in the pile only when it has settled"),
+    ("victims", ["one"], "record_settling", ["all", "window"], "victims are placed after the pile has settled"),
+    ("victims", ["one"], "track", ["on"], "victims are placed after the pile has settled"),
     ("lidar", ["none"], "scans", but("scans", "none"), "a mission with `lidars`"),
 ]
 

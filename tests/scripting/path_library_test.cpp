@@ -289,8 +289,8 @@ TEST(FindVoid, Mistakes) {
             "m.lua:1: trajectory.waypoints: the plan needs a destination: expected at least two waypoints for the plan \"avoid\", found 1");
   EXPECT_EQ(mission_error("return { trajectory = { plan = 'avoid', waypoints = { { position = {0, 0, 1} },\n"
                           "{ position = {1, 0, 1}, t = 2 } } } }"),
-            "m.lua:2: trajectory.waypoints[2].t: contradicts the plan \"avoid\": expected `speed`: how long the way is, "
-            "is not known yet, found 2");
+            "m.lua:2: trajectory.waypoints[2].t: contradicts the plan \"avoid\": expected `speed`, because the length of the "
+            "path is not known yet, found 2");
   EXPECT_NE(mission_error("return { trajectory = { waypoints = { { position = { find_void = { rank = 0 } } } } } }"), "");
 }
 

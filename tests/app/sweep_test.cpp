@@ -108,7 +108,7 @@ TEST(Sweep, CombinesPointsWithLists) {
 TEST(Sweep, SaysWhatIsWrong) {
   EXPECT_IN("--vary", mistake_of({"fogdensity"}, 0));
   EXPECT_IN("a value is empty", mistake_of({"fogdensity=1,,2"}, 0));
-  EXPECT_IN("stands there twice", mistake_of({"fogdensity=1,2,1"}, 0));
+  EXPECT_IN("a value occurs twice", mistake_of({"fogdensity=1,2,1"}, 0));
   EXPECT_IN("varied twice", mistake_of({"a=1,2", "a=3,4"}, 0));
   EXPECT_IN("the range is empty", mistake_of({"a=2..1"}, 3));
   EXPECT_IN("--samples", mistake_of({"a=1..2"}, 0));

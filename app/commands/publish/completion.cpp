@@ -14,7 +14,7 @@ ExitCode print_completion(const std::string& shell) {
   const auto commands = describe_commands(all_commands());
   if (shell != "bash" && shell != "zsh")
     throw InputError(
-        {"", 0, "shell", "no completion for this shell", "The shell: bash or zsh", "`" + shell + "`", ""});
+        {"", 0, "shell", "no completion for this shell", "bash or zsh", "`" + shell + "`", ""});
   const std::string text = shell == "bash" ? make_bash_completion(commands, mission_keys())
                                            : make_zsh_completion(commands, mission_keys());
   print_out("%s", text.c_str());

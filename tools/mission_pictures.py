@@ -88,7 +88,7 @@ class Beside:
 
 LARGE = ("camera.width=1024", "camera.height=768", "camera.sensor.pixel_samples=2", "lidars.top.rate_hz=1")
 PICTURES = {  # file name: mission, what of it, and keys of the mission for a picture that is larger or smaller
-    "demo.png": ("scripts/demo.lua", Beside(Frames(5), Depth(5), Frames(10), Section(-3.6, width=1100), width=1100), *LARGE),
+    "demo.png": ("scripts/demo.lua", Beside(Frames(5), Depth(5), Frames(10), Section(-3.6, width=980), width=980), *LARGE),
     "terrain.jpg": ("scripts/terrain.lua", Frames(0)),
     "record_settling.jpg": ("scripts/record_settling.lua", Preview(width=1200)),
     "robots.jpg": ("scripts/robots/portrait.lua", Frames(1)),

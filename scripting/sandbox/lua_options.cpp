@@ -1,6 +1,7 @@
 #include "scripting/sandbox/lua_options.h"
 
 #include <algorithm>
+#include <array>
 
 #include "scripting/sandbox/lua_tokens.h"
 
@@ -13,6 +14,9 @@ constexpr std::size_t kMostParameters = 1000;
   throw InputError({"", 0, "", "rubble.options: entry " + std::to_string(number) + " " + message, "",
                     "", ""});
 }
+
+// What an entry may say of its parameter, beside the name and the default.
+constexpr std::array<const char*, 7> kLimits{"min", "above", "max", "unit", "type", "choices", "doc"};
 
 std::string text_of(const Value& entry, const char* name) {
   const Value* value = entry.find(name);
@@ -82,6 +86,9 @@ Key& OptionTable::add_key(const std::string& path, const std::string& doc, const
 void OptionTable::add(const Value& entry, std::size_t number) {
   if (entry.items.empty() || entry.items[0].kind != Value::Kind::text) fail(number, "has no name");
   const std::string path = entry.items[0].text;
+  for (const auto& field : entry.fields)
+    if (std::find(kLimits.begin(), kLimits.end(), field.first) == kLimits.end())
+      fail(number, "(`" + path + "`) has the unknown key `" + field.first + "`: expected min, above, max, unit, type, choices or doc");
   const std::size_t dot = path.find('.');
   if (dot != std::string::npos && !schema_.find(path.substr(0, dot)))
     schema_.group(path.substr(0, dot), "");

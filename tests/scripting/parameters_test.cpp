@@ -55,6 +55,8 @@ TEST(Parameters, HaveNamesOfTheirOwn) {
   EXPECT_NE(mission_error("rubble.parameter('a b', 1) return {}").find("a word of letters"), std::string::npos);
   EXPECT_NE(mission_error("rubble.parameter('x', 5, { max = 3 }) return {}").find("m.lua:1: rubble.parameter"), std::string::npos);
   EXPECT_NE(mission_error("rubble.parameter('x') return {}").find("no type"), std::string::npos);
+  EXPECT_NE(mission_error("rubble.parameter('x', 'a', { among = { 'a', 'b' } }) return {}")
+                .find("has the unknown key `among`: expected min, above, max, unit, type, choices or doc"), std::string::npos);
   EXPECT_NE(mission_error("rubble.parameter() return {}"), "");
 }
 

@@ -136,6 +136,8 @@ def contacts_meet_momentum(data):
                     push = links[name][1] @ np.array([message["wrench"]["force"][a] for a in "xyz"]) * step
                     impulse += push
                     hardest = max(hardest, float(np.linalg.norm(push)))
+        if len(stamps) < 2:
+            continue  # nothing to compare a blow with
         duration = (stamps[-1] - stamps[0]) / 1e9
         last = (stamps[-1] - stamps[-2]) / 1e9
         weight = total * data.scenario["settle"]["gravity"] * duration

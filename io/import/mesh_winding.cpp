@@ -94,10 +94,26 @@ class Winding {
       std::swap(mesh_.triangles[t][1], mesh_.triangles[t][2]);
       if (!mesh_.paint_corners.empty()) std::swap(mesh_.paint_corners[t][1], mesh_.paint_corners[t][2]);
     }
+    if (count > 0 && !mesh_.normals.empty()) turn_normals();
     return count;
   }
 
  private:
+  // The file's normals may point outwards already, whatever its triangles do.
+  void turn_normals() {
+    std::vector<double> agreement(mesh_.normals.size(), 0);
+    std::vector<char> near_turned(mesh_.normals.size(), 0);
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto& corners = mesh_.triangles[t];
+      const Vec3 a(mesh_.positions[corners[0]]), b(mesh_.positions[corners[1]]), c(mesh_.positions[corners[2]]);
+      const Vec3 normal = cross(b - a, c - a);
+      for (const std::uint32_t v : corners)
+        agreement[v] += dot(Vec3(mesh_.normals[v]), normal), near_turned[v] |= char(turned_[t]);
+    }
+    for (std::size_t v = 0; v < agreement.size(); ++v)
+      if (near_turned[v] && agreement[v] < 0) mesh_.normals[v] = Vec3f(Vec3(mesh_.normals[v]) * -1.0);
+  }
+
   static constexpr std::uint8_t kUnseen = 2;
 
   bool follow(std::uint32_t first) {

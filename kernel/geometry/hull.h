@@ -1,7 +1,7 @@
 // Convex hulls of small point sets, with the same topology on every machine.
 //
 // The points are rounded to an integer grid of 2^19 steps along their longest extent, and the hull
-// is gift-wrapped (Chand and Kapur 1970) with exact integer predicates. So rounding cannot go wrong at
+// is that of kernel/geometry/lattice_hull.h, by exact integer predicates. So rounding cannot go wrong at
 // coplanar and collinear points. Faces within about one degree of a larger neighbour are then merged
 // into one polygon, as long as all corners stay in its plane within 1e-5 of the longest extent or
 // 0.03 mm, whichever is more. So contacts on a nearly flat side behave as on a flat side, and a drum

@@ -58,7 +58,6 @@ class QuickHull {
     made.corners = {a, b, c};
     made.neighbours = {-1, -1, -1};
     made.normal = cross(at(b) - at(a), at(c) - at(a));
-    made.outside = made.farthest = -1, made.alive = true;
     triangles_.push_back(made);
     return int(triangles_.size()) - 1;
   }

@@ -48,6 +48,18 @@ TEST(MeshWinding, WhatIsInsideOutIsTurned) {
   EXPECT_NEAR(volume(mesh), 1, 1e-6);
 }
 
+// Normals of a file may face as its triangles do, or be right already.
+TEST(MeshWinding, NormalsPointOutwardsInTheEnd) {
+  for (const float sign : {1.0f, -1.0f}) {
+    TriangleMesh mesh;
+    add_cube(mesh, {5, 0, 0}, 0.5, false);
+    for (const Vec3f& p : mesh.positions) mesh.normals.push_back({sign * (p.x - 5), sign * p.y, sign * p.z});
+    EXPECT_NE(agree_on_outside(mesh), "");
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+      EXPECT_GT(dot(Vec3(mesh.normals[v]), Vec3(mesh.positions[v]) - Vec3(5, 0, 0)), 0) << sign << " " << v;
+  }
+}
+
 TEST(MeshWinding, EachSolidHasAnOutsideAndACavityAnInside) {
   TriangleMesh mesh;
   add_cube(mesh, {0, 0, 0}, 2, false);

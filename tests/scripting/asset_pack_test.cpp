@@ -3,28 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 
-#include "tests/scripting/test_support.h"
+#include "tests/scripting/script_files.h"
 
 namespace rubble {
 namespace asset_pack_test {
 
 const std::vector<Material> kMaterials = {{"concrete", 2400, 0.8, "s"}, {"steel", 7850, 0.57, "s"}};
 
-class AssetPackTest : public ::testing::Test {
+class AssetPackTest : public ScriptFiles {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
+    ScriptFiles::SetUp();
     for (const char* name : {"a.obj", "a.lod1.obj", "a.parts.obj", "b.stl"}) write(name, "");
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  void write(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name) << text;
   }
   AssetPack load(const std::string& text) {
     write("pack.lua", text);
@@ -34,8 +25,6 @@ class AssetPackTest : public ::testing::Test {
     return error_of([&] { load(text); });
   }
   std::string script() const { return (folder_ / "pack.lua").string(); }
-
-  std::filesystem::path folder_;
 };
 
 TEST_F(AssetPackTest, EveryKey) {

@@ -6,6 +6,7 @@
 #include "kernel/base/hash.h"
 #include "kernel/geometry/hull.h"
 #include "kernel/settling/building_collapse.h"
+#include "kernel/structure/buildings/site.h"
 
 namespace rubble {
 namespace {
@@ -107,10 +108,11 @@ BuildingSpec building_of(const Scenario& scenario) {
   return building;
 }
 
-void add_building(const BuildingSpec& building, AssetLibrary& library) {
+void add_building(const BuildingSpec& building, const Vec3& terrain_position, AssetLibrary& library) {
   if (!building.given()) return;
-  library.building_first_type = int(library.types.size());
   const Structure made = make_damaged_building(building);
+  for (const int type : library.terrain()) check_site(made, *library.types[std::size_t(type)].surface, terrain_position);
+  library.building_first_type = int(library.types.size());
   const std::vector<PieceType>& types = made.types;
   library.building_counts.assign(types.size(), 0);
   for (const StructurePiece& piece : made.pieces) {

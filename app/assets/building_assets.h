@@ -13,7 +13,8 @@ inline constexpr const char* kBuildingPack = "building of the mission";
 BuildingSpec building_of(const Scenario& scenario);
 
 // Adds every type of its pieces in their order, and notes the first; nothing where there is no building.
-// Throws InputError naming keys that contradict each other.
-void add_building(const BuildingSpec& building, AssetLibrary& library);
+// Throws InputError naming keys that contradict each other, and where the library's terrain, which lies at
+// `terrain_position`, reaches into a member as built: a building stands on the ground z = 0.
+void add_building(const BuildingSpec& building, const Vec3& terrain_position, AssetLibrary& library);
 
 }  // namespace rubble

@@ -115,7 +115,7 @@ ConvexShape compile_part(const Hull& hull, const Vec3& centre) {
 }
 
 void check_material(const PieceType& type, const std::string& key) {
-  if (!(type.density >= 10 && type.density <= 20000)) {
+  if (!(type.density >= kLeastDensity && type.density <= kMostDensity)) {
     fail(key + ".density", "out of range", "10 to 20000 kg/m3", std::to_string(type.density));
   }
   if (!(type.friction >= 0 && type.friction <= 2)) {

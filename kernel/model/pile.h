@@ -24,6 +24,9 @@ struct ConvexPart {
   std::vector<Vec3> points;  // unit: m
 };
 
+// Of a piece type; unit: kg/m3.
+inline constexpr double kLeastDensity = 10, kMostDensity = 20000;
+
 // One kind of piece. All lengths at scale 1.
 struct PieceType {
   std::string name;               // unique among the types of a pile
@@ -34,7 +37,7 @@ struct PieceType {
   std::shared_ptr<const TriangleMesh> surface;
   // Volume, centre of mass and inertia at density 1; without it, the sum over the parts.
   std::optional<VolumeProperties> volume;
-  double density = 2400;  // unit: kg/m3; range: 10 to 20000
+  double density = 2400;  // unit: kg/m3; range: kLeastDensity to kMostDensity
   double friction = 0.8;  // Coulomb, against concrete; a pair has the geometric mean; range: 0 to 2
 };
 

@@ -5,7 +5,9 @@
 #include <functional>
 
 #include "kernel/base/error.h"
+#include "kernel/geometry/height_field.h"
 #include "kernel/structure/building.h"
+#include "kernel/structure/buildings/site.h"
 #include "kernel/structure/standing.h"
 #include "tests/kernel/member_scenes.h"
 
@@ -322,6 +324,58 @@ TEST(Plan, ACauseTakesTheWallThatItNames) {
   }
   EXPECT_EQ(left, 0);
   EXPECT_GT(gone, 0.9 * 3 * 3.7 * 0.3 * 1900);
+}
+
+TEST(Plan, ThinFloorsRefuseWhatPiecesCannotWeigh) {
+  BuildingSpec b = make_house();
+  b.cause.overloaded_floor = 0, b.cause.overload = 200;
+  const Structure whole = build_building(b);
+  EXPECT_NO_THROW(build_damaged(b, whole));
+  b.cause.overload = 2900;
+  std::string text;
+  try {
+    build_damaged(b, whole);
+  } catch (const InputError& error) {
+    text = error.what();
+  }
+  expect_in(text, "pile.building.cause.overload");
+  expect_in(text, "kg/m2 on a floor");
+}
+
+// A block of 8 x 8 m from 0.5 m below its lowest height, or from deeper; heights(x, y) in metres.
+TriangleMesh make_ground(const std::function<double(double, double)>& heights, double depth = 0.5) {
+  HeightField field;
+  field.columns = field.rows = 9, field.spacing = 1, field.origin = {-4, -4, 0};
+  for (int j = 0; j < 9; ++j)
+    for (int i = 0; i < 9; ++i) field.heights.push_back(heights(i - 4.0, j - 4.0));
+  return make_height_field_mesh(field, depth, "ground");
+}
+
+std::string site_refusal(const Structure& building, const TriangleMesh& ground, const Vec3& position = {}) {
+  try {
+    check_site(building, ground, position);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Site, TerrainMayLieUnderABuildingAndNotInIt) {
+  BuildingSpec b;
+  b.storeys = 1, b.bays_x = b.bays_y = 1, b.span_x = b.span_y = 3;
+  const Structure building = build_building(b);  // columns about (+-1.5, +-1.5)
+  EXPECT_EQ(site_refusal(building, make_ground([](double, double) { return 0; })), "");
+  EXPECT_EQ(site_refusal(building, make_ground([](double x, double) { return x > 2.5 ? 0.5 : 0; })), "");
+  const TriangleMesh slope = make_ground([](double x, double) { return 0.05 + 0.01 * (x + 4); });
+  std::string text = site_refusal(building, slope);
+  expect_in(text, "pile.building");
+  expect_in(text, "in or over a column");
+  EXPECT_EQ(site_refusal(building, slope, {7, 0, 0}), "");
+  EXPECT_EQ(site_refusal(building, slope, {0, 0, -0.2}), "");
+  // Far above the building's top no triangle meets it, and it is buried all the same.
+  expect_in(site_refusal(building, make_ground([](double, double) { return 50; }, 50.5)), "terrain 50.000 m high");
+  // Under a roof it stands: as many surfaces above it face down as up.
+  EXPECT_EQ(site_refusal(building, make_ground([](double, double) { return 1; }), {0, 0, 10}), "");
 }
 
 }  // namespace building_kinds_test

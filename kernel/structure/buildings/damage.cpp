@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <map>
 
+#include "kernel/base/error.h"
 #include "kernel/structure/building.h"
 #include "kernel/structure/buildings/parts.h"
 
@@ -25,6 +28,15 @@ void weaken(Section& s, double share) {
   s.steel.yield *= share, s.steel.stirrups *= share;
 }
 
+// What lies on thin boards would make them denser than a piece may be.
+[[noreturn]] void fail_overload(double overload, double density, const Member& member) {
+  char expected[128];
+  std::snprintf(expected, sizeof expected, "at most %.0f kg/m2 on a floor %.3g m thick, whose pieces carry it as their own mass",
+                std::floor((kMostDensity - density) * member.size.z), member.size.z);
+  throw InputError({"", 0, "pile.building.cause.overload", "more than this floor can have", expected,
+                    std::to_string(overload), ""});
+}
+
 // A floor's overload is carried, and falls, with its slabs: they become denser.
 void add_overload(const BuildingSpec& b, Structure& s) {
   std::map<std::int32_t, std::int32_t> heavy;
@@ -36,6 +48,7 @@ void add_overload(const BuildingSpec& b, Structure& s) {
       PieceType type = s.types[piece.type];
       type.name += "_loaded";
       type.density += b.cause.overload / member.size.z;
+      if (type.density > kMostDensity) fail_overload(b.cause.overload, s.types[piece.type].density, member);
       s.types.push_back(type);
       s.type_materials.push_back(s.type_materials[piece.type]);
       s.type_bars.push_back(s.type_bars[piece.type]);

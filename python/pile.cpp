@@ -54,11 +54,11 @@ Pile settle(const std::string& mission, const py::object& seed, const std::vecto
   return {settled, context.threads()};
 }
 
-Pile open_pile(const std::string& folder, int threads) {
+Pile open_pile(const std::string& folder, int threads, const std::vector<std::string>& assets) {
   RunContext context(quiet(threads));
   const FinishedRun saved = open_finished_run(folder);
   auto settled = std::make_shared<SettledMission>();
-  settled->mission = resolve_pile(saved.manifest.provenance, {}, context);
+  settled->mission = resolve_pile(saved.manifest.provenance, assets, context);
   settled->state = load_pile_of(saved, settled->mission.assets);
   return {settled, context.threads()};
 }
@@ -216,7 +216,8 @@ void add_pile(py::module_& module) {
              "From now on this process reads missions, packs and what they name only below that folder, as rubble --sandbox; "
              "None: everywhere again. Folders given to open_pile stay open.");
   module.def("open_pile", &open_pile, py::arg("folder"), py::arg("threads") = 0,
-             "The settled pile of a finished run.");
+             py::arg("assets") = std::vector<std::string>(),
+             "The settled pile of a finished run. assets: folders of packs, terrain meshes and URDF files that are not bundled.");
 }
 
 }  // namespace rubble::python

@@ -259,7 +259,9 @@ std::string find_urdf(const std::string& name, const std::vector<std::string>& f
       }
       looked += (looked.empty() ? "" : ", ") + tried.string();
     }
-  throw InputError({"", 0, key + ".urdf", "no such file", "a URDF file", "\"" + name + "\"", "looked for " + looked});
+  throw InputError({"", 0, key + ".urdf", "no such file", "a URDF file", "\"" + name + "\"",
+                    looked.empty() ? "its folder is not known: name it with --assets, or `assets` in Python"
+                                   : "looked for " + looked});
 }
 
 std::string hash_urdf(const std::string& path) {

@@ -60,7 +60,8 @@ std::string find_file(const std::string& name, const std::vector<std::string>& f
     looked += (looked.empty() ? "" : ", ") + path.string();
   }
   throw InputError({"", 0, "pile.terrain.file", "no such file", "a mesh", "\"" + name + "\"",
-                    "looked for " + looked + "; --assets names further folders"});
+                    looked.empty() ? "its folder is not known: name it with --assets, or `assets` in Python"
+                                   : "looked for " + looked + "; --assets names further folders"});
 }
 
 std::string hash_mesh(const TriangleMesh& mesh, double friction) {

@@ -17,11 +17,11 @@ from dataset import Finding, need
 REPEATED = ("seed", "state_hash", "pile", "frames", "metrics", "outputs", "frame_hashes", "scenario")
 
 PYTHON_CHECK = """
-import json, sys
+import json, os, sys
 import numpy as np
 import rubble
 folder = sys.argv[1]
-pile = rubble.open_pile(folder)
+pile = rubble.open_pile(folder, assets=[os.path.dirname(os.path.abspath(folder))])
 vertices, triangles = pile.mesh()
 distance = pile.cast_rays(np.array([[0.0, 0.0, 50.0]]), np.array([[0.0, 0.0, -1.0]]))["distance"]
 answer = {"state": "%016x" % pile.state_hash, "settled": bool(pile.settled), "triangles": len(triangles), "down": float(distance[0])}

@@ -138,7 +138,7 @@ def add_pile(mission, special, row):
             cause["removed"] = columns
         if "sinking" in cause:
             cause["sinking"] = [dict(column, depth=0.4) for column in columns]
-        if "overload" in cause and plan:
+        if "overload" in cause and (plan or row["building"] == "masonry"):
             cause["overload"] = 600  # thin boards carry no more
         if "vehicle" in cause:
             cause["vehicle"] = dict(here, mass=20000, speed=15, direction_deg=90)
@@ -151,7 +151,7 @@ def add_pile(mission, special, row):
     if "@terrain" in special:
         more += "pile.terrain = " + special["@terrain"] + "\n"
         if "@building" in special:
-            more += "pile.terrain.position = { 5.5, 0, 0 }\n"  # a building stands beside it, on level ground
+            more += "pile.terrain.position = { 8, 0, 0 }\n"  # a building stands beside it, on level ground
     if "@shelter" in special:
         more += "pile.placed = pile.placed or {}\n"
         more += "for _, box in ipairs(%s) do pile.placed[#pile.placed + 1] = box end\n" % to_lua(SHELTER)

@@ -138,6 +138,22 @@ class PileWithFines(unittest.TestCase):
         self.assertGreater(nearer.sum(), 5)
 
 
+class OwnTerrain(unittest.TestCase):
+    def test_a_run_is_opened_with_its_folder(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "ramp.obj"), "w", encoding="utf-8") as file:
+                file.write("v -2 -2 0.5\nv 2 -2 0.5\nv 2 2 0.5\nv -2 2 0.5\nf 1 2 3\nf 1 3 4\n")
+            mission, out = os.path.join(folder, "m.lua"), os.path.join(folder, "out")
+            with open(mission, "w", encoding="utf-8") as file:
+                file.write("return rubble.mission { pile = { layers = 0, terrain = { file = 'ramp.obj' } } }")
+            subprocess.run([os.environ["RUBBLE_PROGRAM"], "settle", mission, "--quiet", "--out", out], check=True)
+            with self.assertRaises(rubble.InputError) as raised:
+                rubble.open_pile(out)
+            self.assertIn("`assets` in Python", str(raised.exception))
+            down = rubble.open_pile(out, assets=[folder]).cast_rays([[0.3, 0.1, 3]], [[0, 0, -1]])["distance"]
+        self.assertAlmostEqual(down[0], 2.5, places=6)
+
+
 class Sandbox(unittest.TestCase):
     def test_holds_what_missions_read(self):
         with tempfile.TemporaryDirectory() as root:

@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo gallery pictures film test check test-nightly test-asan test-tsan test-files fuzz mutants faults pairs determinism platforms format clean
+.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo pictures film test check test-nightly test-asan test-tsan test-files fuzz mutants faults pairs determinism platforms format clean
 
 PROGRAM := build/release/rubble
 # Tests have one thread each, so as many run at once as there are processors.
@@ -11,8 +11,7 @@ help:
 	@echo "make demo       install what is missing, build, and run scripts/demo.lua"
 	@echo "make test       install what is missing, build, and run the test suite"
 	@echo "make check T=kernel  build and run the tests of one part, or suites of it: T=app.Batch"
-	@echo "make gallery    write docs/gallery.md and its pictures"
-	@echo "make pictures   draw the other pictures of the documents"
+	@echo "make pictures   draw the pictures of the documents anew, and docs/gallery.md; it goes on where it stopped"
 	@echo "make film       make the film of the demo: docs/pictures/demo.mp4"
 	@echo "make build      build the program and its assets only: $(PROGRAM)"
 	@echo "make all        build everything, with the tests and benches"
@@ -89,40 +88,24 @@ live: packages
 	cmake --preset release -DBUILD_TESTING=ON
 	cmake --build --preset release
 
-# A dataset with its contact sheet out/demo/preview.png, and its page.
+# A dataset with its contact sheet and its page.
 demo: build
 	$(PROGRAM) run scripts/demo.lua --out out/demo --force
-	$(PROGRAM) view out/demo
+	@$(PROGRAM) view out/demo > /dev/null
+	@echo "Open the contact sheet out/demo/preview.png, and the page out/demo/view.html in a browser."
 
-# The pile of the tutorial and its voids, a sheet of each pack, each collapse mode cut open, and the missions that
-# documents show, those of ruins and of LiDARs with their tables. The gallery, the film and what `rubble drive`
-# shows are not among them: docs/development/contributing.md.
-pictures: build
+# All pictures of the documents but the film, and the tables that are drawn with them; hours. It goes on where it stopped.
+# PICTURES: some of the steps alone, as in PICTURES="film drive"; tools/draw_pictures.py --list has their names.
+pictures: packages build/release/build.ninja
 	@tools/install_packages.sh tools/packages-pictures.txt
-	mkdir -p docs/pictures
-	$(PROGRAM) run scripts/first_pile.lua --out out/first_pile --force
-	tools/frames_of_bag.py out/first_pile/mission.bag docs/pictures/first_pile.png 341 0 55 118
-	for pack in concrete residential parking bridge victims; do \
-	  $(PROGRAM) assets show $$pack --tile 168 --out docs/pictures/pack_$$pack.jpg || exit 1; done
-	$(PROGRAM) voids out/first_pile --radius 0.2 --force
-	cp out/first_pile/voids/plan_r200.png docs/pictures/void_plan.png
-	cp out/first_pile/voids/cut_y_r200.png docs/pictures/void_cut.png
-	tools/collapse_pictures.sh
-	tools/mission_pictures.py --program $(PROGRAM)
-	tools/draw_ruins.py --program $(PROGRAM) docs/explanation/collapse.md
-	tools/draw_ruins.py --program $(PROGRAM) --kinds docs/explanation/collapse.md
-	$(PROGRAM) run scripts/lidar.lua --out out/lidar --force
-	$(PROGRAM) run scripts/lidar.lua --set fogdensity=0.1 --out out/lidar_smoke --force
-	/usr/bin/python3 tools/draw_lidar.py out/lidar top docs/pictures/lidar.png --beside out/lidar_smoke
+	@grep -q '^BUILD_TESTING:BOOL=ON' build/release/CMakeCache.txt || cmake --preset release -DBUILD_TESTING=ON
+	cmake --build --preset release --target program gallery python
+	tools/draw_pictures.py $(PICTURES)
 
 film: build
 	@tools/install_packages.sh tools/packages-pictures.txt
 	rm -rf out/film
 	tools/draw_film.py --program $(PROGRAM)
-
-# Every picture of docs/gallery.md, from bundled missions.
-gallery: all
-	build/release/gallery
 
 # What tests make once and share (baked light, textures) is made anew, by the program that is tested.
 test: all

@@ -30,7 +30,7 @@ namespace rubble {
 namespace {
 
 struct Request {
-  std::string list = "docs/gallery.json", page = "docs/gallery.md", only;
+  std::string list = "docs/gallery.json", page = "docs/gallery.md", only, section;
   int threads = 0;
 };
 
@@ -105,6 +105,7 @@ ExitCode draw(const Request& request) {
   GlContext context({-1, threads});
   Piles piles(threads);
   for (const GallerySection& section : gallery.sections) {
+    if (!request.section.empty() && section.title != request.section) continue;
     for (const GalleryPicture& picture : section.pictures) {
       if (picture.name.find(request.only) == std::string::npos) continue;
       std::fprintf(stderr, "gallery: %s\n", picture.name.c_str());
@@ -124,6 +125,7 @@ ExitCode run(int argc, char** argv) {
   app.add_option("--page", request.page, "The page; pictures go to pictures/gallery beside it")
       ->capture_default_str();
   app.add_option("--only", request.only, "Only pictures whose name has this in it");
+  app.add_option("--section", request.section, "Only pictures of the section with this title");
   app.add_option("--threads", request.threads, "0: all processors")->check(CLI::Range(0, 1024));
   try {
     app.parse(argc, argv);

@@ -70,7 +70,7 @@ Gallery load_gallery(const std::string& path) {
 
 std::string gallery_page(const Gallery& gallery) {
   std::string page =
-      "# Gallery\n\n`make gallery` draws these pictures from bundled missions; [gallery.json](gallery.json) lists them.\n"
+      "# Gallery\n\n`make pictures` draws these pictures from bundled missions; [gallery.json](gallery.json) lists them.\n"
       "Below each picture are the mission and the keys that it changes, for `--set`:\n\n"
       "    rubble run scripts/collapse/lean_to.lua --set camera.width=720 --set camera.height=540 --set lamp.on=false\n";
   for (const GallerySection& section : gallery.sections) page += page_of(section);

@@ -13,7 +13,7 @@ local building = rubble.building {
 -- A robot that follows a path: its points are {x, y}, in metres. `rubble voids out/demo` draws where there is room.
 local crawler = rubble.robot.crawler {
   name = "tank", position = { -3.6, -7.4, 0.001 }, rpy_deg = { 0, 0, 90 }, odometry_noise = 0.001,
-  lamps = { { intensity_cd = 150 } },
+  lamps = { { position = { 0.28, 0, 0.28 }, rpy_deg = { 0, -5, 0 }, intensity_cd = 200, cone_deg = 120 } },  -- wider than what the camera sees
   control = rubble.robot.follow {
     path = { { -3.6, -7.4 }, { -3.4, -5.8 }, { -3, -4.4 }, { -2, -3.6 }, { -0.9, -3.4 } }, speed = 0.35,
     flippers = { 0.7, 0.7, 0.7, 0.7 },
@@ -28,13 +28,13 @@ return rubble.mission {
   robot_run = { duration = 16 },
 
   -- Dust that hangs in the air, in billows and near the ground. Bursts of dust (`dust`) and wind cost more time a frame.
-  air = { fog_density = 0.15, fog_height = 1.5, fog_noise = 0.8 },
+  air = { fog_density = 0.1, fog_height = 1.5, fog_noise = 0.8 },
 
   -- What is measured: colour and depth of a camera on a mast, a LiDAR, an inertial unit.
   light = { type = "sun", elevation_deg = -4, azimuth_deg = 230 },  -- dusk
-  camera = { width = 480, height = 360, fov_deg = 90, exposure = { mode = "automatic" } },
+  camera = { width = 480, height = 360, fov_deg = 80, exposure = { mode = "automatic", compensation = -0.5 } },
   lamp = { on = false },
-  trajectory = { rate_hz = 1, ride = { robot = "tank", position = { 0.25, 0, 0.35 }, rpy_deg = { 0, 5, 0 } } },
+  trajectory = { rate_hz = 1, ride = { robot = "tank", position = { 0.25, 0, 0.35 }, rpy_deg = { 0, -6, 0 } } },
   lidars = { top = { model = "os0", columns = 512, rate_hz = 2, ride = { robot = "tank" }, position = { 0, 0, 0.45 } } },
   imu = { on = true },
   outputs = { bag = true, rawlog = true, simplemap = false },

@@ -23,14 +23,19 @@ GAP = 6  # between pictures; pixels
 NEAR, FAR = 0.3, 8.0  # of the colours of depth, on a logarithmic scale; m
 
 
+def frames_folder(run, camera, kind):
+    """camera: one of `cameras`, or None for `camera`; kind: rgb or depth."""
+    return os.path.join(run, *(["cameras", camera] if camera else []), "frames", kind)
+
+
 class Frames:
     """Frames of a run, side by side in rows; width: that of one, in pixels, or None for its own."""
 
-    def __init__(self, *indices, columns=1, width=None):
-        self.indices, self.columns, self.width = indices, columns, width
+    def __init__(self, *indices, columns=1, width=None, camera=None):
+        self.indices, self.columns, self.width, self.camera = indices, columns, width, camera
 
     def picture(self, program, run):
-        cells = [read(os.path.join(run, "frames", "rgb", f"{i:06d}.png")) for i in self.indices]
+        cells = [read(os.path.join(frames_folder(run, self.camera, "rgb"), f"{i:06d}.png")) for i in self.indices]
         if self.width:
             cells = [resize(c, self.width) for c in cells]
         rows = [cv2.hconcat(cells[i:i + self.columns]) for i in range(0, len(cells), self.columns)]
@@ -40,11 +45,11 @@ class Frames:
 class Depth:
     """The depth of a frame in the colours of the contact sheet."""
 
-    def __init__(self, index):
-        self.index = index
+    def __init__(self, index, camera=None):
+        self.index, self.camera = index, camera
 
     def picture(self, program, run):
-        return colour_depth(os.path.join(run, "frames", "depth", f"{self.index:06d}.exr"))
+        return colour_depth(os.path.join(frames_folder(run, self.camera, "depth"), f"{self.index:06d}.exr"))
 
 
 class Preview:
@@ -70,14 +75,16 @@ class Section:
 
 
 class Beside:
-    """A large picture, two small ones in a column on its right, and a wide one below; width: of all, in pixels."""
+    """A large picture, two small ones of one shape in a column on its right, and a wide one below; width: of all, in
+    pixels. Nothing is cut off."""
 
     def __init__(self, large, upper, lower, below, width):
         self.parts, self.below, self.width = (large, upper, lower), below, width
 
     def picture(self, program, run):
         large, upper, lower = (part.picture(program, run) for part in self.parts)
-        wide = round((self.width - GAP) * 2 / 3)
+        twice = 2 * upper.shape[0] / upper.shape[1]  # height of the column for its width, without the gap
+        wide = round((self.width - GAP + GAP / twice) / (1 + large.shape[0] / large.shape[1] / twice))
         large = resize(large, wide)
         small = [fit(part, (self.width - GAP - wide, (large.shape[0] - GAP) // 2)) for part in (upper, lower)]
         rest = large.shape[0] - small[0].shape[0] - small[1].shape[0]
@@ -86,9 +93,12 @@ class Beside:
         return cv2.vconcat([top, paper(GAP, self.width), resize(self.below.picture(program, run), self.width)])
 
 
-LARGE = ("camera.width=1024", "camera.height=768", "camera.sensor.pixel_samples=2", "lidars.top.rate_hz=1")
+LARGE = ("part=way", "trajectory.rate_hz=0.5", "cameras.outside.width=1024", "cameras.outside.height=640",
+         "cameras.outside.sensor.pixel_samples=2", "cameras.front.width=640", "cameras.front.sensor.pixel_samples=2",
+         "cameras.front.height=480")
 PICTURES = {  # file name: mission, what of it, and keys of the mission for a picture that is larger or smaller
-    "demo.png": ("scripts/demo.lua", Beside(Frames(5), Depth(5), Frames(10), Section(-3.6, width=980), width=980), *LARGE),
+    "demo.jpg": ("scripts/film.lua", Beside(Frames(3, camera="outside"), Frames(5, camera="front"), Depth(5, "front"),
+                                            Section(-3.6, width=1200), width=1200), *LARGE),
     "terrain.jpg": ("scripts/terrain.lua", Frames(0)),
     "record_settling.jpg": ("scripts/record_settling.lua", Preview(width=1200)),
     "robots.jpg": ("scripts/robots/portrait.lua", Frames(1)),

@@ -33,10 +33,10 @@ std::vector<Block> read_blocks(const std::string& page) {
 }
 
 // Runs a block in the folder; what it prints, and its exit code on a last line.
-std::string run_block(const ScratchFolder& folder, const std::string& text) {
+std::string run_block(const ScratchFolder& folder, const std::string& text, const std::string& more = "") {
   const std::string program = fs::path(RUBBLE_PROGRAM).parent_path().string();
   write_file(folder / ".block.sh", "set -e\nexport PATH=" + program + ":$PATH PYTHONPATH=" RUBBLE_PYTHON_PATH
-                                   " PYTHONDONTWRITEBYTECODE=1\n" + text);
+                                   " PYTHONDONTWRITEBYTECODE=1 " + more + "\n" + text);
   std::system(("cd '" + folder.path().string() + "' && bash .block.sh > .out 2>&1; echo exit $? >> '" +
                (folder / ".out") + "'")
                   .c_str());
@@ -79,6 +79,25 @@ TEST_P(Tutorial, WorksAsWritten) {
 
 INSTANTIATE_TEST_SUITE_P(All, Tutorial, ::testing::ValuesIn(kPages),
                          [](const auto& page) { return std::string(page.param.name); });
+
+// The last step of docs/tutorials/train.md, typed as it is written: pip asks PyPI.
+TEST(NightlyTutorial, GymnasiumOfPyPIMakesAnEnvironment) {
+  if (std::string(RUBBLE_PYTHON_PATH).empty()) GTEST_SKIP() << "the Python package is not built";
+  const std::string page = kTutorials + "train.md";
+  const ScratchFolder folder;
+  for (const Block& block : read_blocks(page))
+    if (block.language == "python") write_file(folder / "registered.py", block.text);
+  ASSERT_TRUE(fs::exists(folder / "registered.py")) << page << " has no block of Python";
+  std::istringstream lines(read_file(page));
+  int typed = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("    /usr/bin/python3 -m venv ", 0) != 0 && line.rfind("    ~/train/", 0) != 0) continue;
+    const std::string printed = run_block(folder, line + "\n", "HOME=" + folder.path().string());
+    ASSERT_NE(printed.find("exit 0\n"), std::string::npos) << line << "\n" << printed;
+    ++typed;
+  }
+  EXPECT_EQ(typed, 2) << "an environment, and what runs in it";
+}
 
 // The plan and the mission of docs/how_to/my_building.md: its wall is missing, so its floor falls.
 TEST(HowTo, MyBuildingCollapses) {

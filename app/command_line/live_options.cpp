@@ -30,7 +30,7 @@ void add_ros_options(CommandLine& line, LiveRequest& live, const std::string& te
       .shows_default_text("$ROS_IP, or only this machine")
       .metavar("ADDRESS")
       .needs(ros1);
-  Option ros2 = line.add_flag("--ros2", live.ros2, "The same for ROS 2, over DDS");
+  Option ros2 = line.add_flag("--ros2", live.ros2, "Publish the frames to ROS 2 over DDS during rendering");
   if (one) ros2.excludes(ros1);
   line.add("--ros-domain", live.ros_domain, "The DDS domain")
       .shows_default_text("$ROS_DOMAIN_ID, or 0")

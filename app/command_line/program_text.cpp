@@ -7,8 +7,8 @@ namespace rubble {
 ProgramText program_text() {
   ProgramText text;
   text.about =
-      "Rubble simulates collapsed structures for robots. From a mission in Lua and a seed it makes a settled pile, "
-      "RGB-D frames along a path, an MRPT rawlog, ROS bags and the ground truth.";
+      "Rubble simulates collapsed structures, and robots with sensors in them. A mission in Lua and a seed give a "
+      "settled ruin, recordings for ROS, MRPT and other tools, and the ground truth.";
   text.version = "rubble " + build_info().version;
   text.exit_codes = {{0, "done"},    {1, "bad input"},
                      {2, "failure"}, {3, "finished, but the pile did not settle or lost pieces"},

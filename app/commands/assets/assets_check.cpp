@@ -171,8 +171,8 @@ void print_table(const AssetPack& pack, const std::vector<AssetReport>& reports,
   print_trees(trees);
   print_remarks(reports);
   print_remarks(trees);
-  print_out("%s: %zu assets, %zu of them articulated\n", pack.name.c_str(),
-            reports.size() + trees.size(), trees.size());
+  const std::size_t count = reports.size() + trees.size();
+  print_out("%s: %zu %s, %zu articulated\n", pack.name.c_str(), count, count == 1 ? "asset" : "assets", trees.size());
 }
 
 nlohmann::ordered_json json_of(const TreeReport& t) {

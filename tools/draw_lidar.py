@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws a scan of a LiDAR from above: as measured, straightened by the true motion, and that of another run.
+"""Draws a scan of a LiDAR from above: as measured, corrected by the true motion, and that of another run.
 
 usage: draw_lidar.py RUN NAME OUT.png [--beside OTHER_RUN] [--scan N]
 
@@ -50,14 +50,14 @@ def main():
     parser.add_argument("--scan", type=int, default=5)
     args = parser.parse_args()
     views = [("as measured, placed by the pose at its stamp", args.run, False),
-             ("straightened by the true motion", args.run, True)]
+             ("corrected by the true motion", args.run, True)]
     if args.beside:
         views.append(("the same in smoke", args.beside, True))
     figure, axes = plt.subplots(1, len(views), figsize=(5 * len(views), 5), facecolor="black")
     for axis, (title, run, straight) in zip(np.atleast_1d(axes), views):
         points, intensity = in_world(f"{run}/pcd/{args.name}", args.scan, straight)
         order = np.argsort(points[:, 2])
-        axis.scatter(points[order, 0], points[order, 1], c=points[order, 2], s=1.0, cmap="turbo", vmin=0, vmax=1.2,
+        axis.scatter(points[order, 0], points[order, 1], c=points[order, 2], s=2.0, cmap="turbo", vmin=-0.3, vmax=1.2,
                      linewidths=0)
         axis.set(xlim=(-5, 3), ylim=(-4, 4), aspect="equal", facecolor="black")
         axis.set_title(title, color="white", fontsize=10)

@@ -99,7 +99,7 @@ LARGE = ("part=way", "trajectory.rate_hz=0.5", "cameras.outside.width=1024", "ca
 PICTURES = {  # file name: mission, what of it, and keys of the mission for a picture that is larger or smaller
     "demo.jpg": ("scripts/film.lua", Beside(Frames(3, camera="outside"), Frames(5, camera="front"), Depth(5, "front"),
                                             Section(-3.6, width=1200), width=1200), *LARGE),
-    "terrain.jpg": ("scripts/terrain.lua", Frames(0)),
+    "terrain.jpg": ("scripts/terrain.lua", Frames(0), "camera.fov_deg=50"),
     "record_settling.jpg": ("scripts/record_settling.lua", Preview(width=1200)),
     "robots.jpg": ("scripts/robots/portrait.lua", Frames(1)),
     "robot_lamps.jpg": ("scripts/robots/lamps.lua", Frames(2)),

@@ -69,7 +69,7 @@ TEST(NightlyDemo, TheRobotGetsIntoTheRuinAndRecordsIt) {
 
   const Outcome view = run_rubble("view " + folder);
   ASSERT_EQ(view.exit_code, 0) << view.err;
-  EXPECT_EQ(view.out, folder + "/view.html\n") << "make demo ends with this line";
+  EXPECT_EQ(view.out, folder + "/view.html\n") << "the last line of make demo names this page";
 }
 
 TEST(Demo, IsAPageThatPeopleStartFrom) {

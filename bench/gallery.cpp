@@ -104,15 +104,18 @@ ExitCode draw(const Request& request) {
   fs::create_directories(folder);
   GlContext context({-1, threads});
   Piles piles(threads);
+  int drawn = 0;
   for (const GallerySection& section : gallery.sections) {
     if (!request.section.empty() && section.title != request.section) continue;
     for (const GalleryPicture& picture : section.pictures) {
       if (picture.name.find(request.only) == std::string::npos) continue;
+      ++drawn;
       std::fprintf(stderr, "gallery: %s\n", picture.name.c_str());
       write_jpeg((folder / (picture.name + ".jpg")).string(),
                  channel_picture(picture.channel, take(context, picture, piles, threads)));
     }
   }
+  if (drawn == 0) throw RunError(request.list + " has no picture of that name or section");
   write_text_file(request.page, gallery_page(gallery));
   std::printf("%s\n", request.page.c_str());
   return ExitCode::done;

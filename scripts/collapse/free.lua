@@ -1,4 +1,4 @@
--- Free placement: pieces are placed one by one, moved and turned together, and covered with debris.
+-- Free placement: pieces placed one by one, turned as a group, under debris.
 return rubble.mission {
   seed = 4,
   pile = rubble.collapse.free {

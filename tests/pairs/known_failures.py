@@ -9,8 +9,6 @@ def any_row(row):
 
 # (name, judge, pattern of the text, which rows, cause)
 KNOWN = [
-    ("scan-outlasts-imu", "imus_outlast_scans", r"past the last inertial reading", any_row,
-     "a scan that begins before the last picture ends after it; inertial units end with the picture"),
     ("imu-pauses", "imu_is_steady", r"pauses", lambda row: row.get("record_settling", "off") != "off",
      "with record_settling, inertial units are silent between the last picture of the settling and the flight"),
 ]

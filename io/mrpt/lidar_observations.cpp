@@ -62,10 +62,11 @@ mrpt::obs::CObservationPointCloud point_cloud(const LidarScan& scan, const Lidar
   mrpt::obs::CObservationPointCloud out;
   describe(scan, lidar, out);
   auto points = mrpt::maps::CPointsMapXYZI::Create();
-  points->reserve(scan.points.size());
-  for (const LidarPoint& p : scan.points) {
-    points->insertPointFast(p.x, p.y, p.z);
-    points->setPointIntensity(points->size() - 1, p.intensity / 100);
+  points->resize(scan.points.size());
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    const LidarPoint& p = scan.points[i];
+    points->setPointFast(i, p.x, p.y, p.z);
+    points->setPointIntensity(i, p.intensity / 100);
   }
   out.pointcloud = points;
   return out;

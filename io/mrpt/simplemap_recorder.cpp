@@ -25,11 +25,15 @@ struct EmptyMap {
   std::string before_count, after_frames;
 };
 
-EmptyMap make_empty_map() {
+std::string bytes_of(const mrpt::maps::CSimpleMap& map) {
   MemoryStream stream;
   auto archive = mrpt::serialization::archiveFrom(static_cast<mrpt::io::CStream&>(stream));
-  archive << mrpt::maps::CSimpleMap();
-  const std::string& bytes = stream.bytes();
+  archive << map;
+  return stream.bytes();
+}
+
+EmptyMap make_empty_map() {
+  const std::string bytes = bytes_of({});
   const std::size_t count_at = bytes.size() - 1 - sizeof(std::uint32_t);
   return {bytes.substr(0, count_at), bytes.substr(bytes.size() - 1)};
 }
@@ -82,15 +86,17 @@ class SimplemapRecorder : public Recorder {
            angle >= options_.angle_deg * (portable::kPi / 180);
   }
 
+  // What a map of this key frame alone has between its count and its end, whichever MRPT writes it.
   void write_key_frame(const Frame& frame) {
-    mrpt::obs::CSensoryFrame seen;
-    seen.insert(make_scan(frame));
-    mrpt::poses::CPose3DPDFGaussian pose(mrpt_pose(frame.world_from_camera));
-    pose.cov.setZero();  // it is the truth
-    stream_.clear();
-    auto archive = mrpt::serialization::archiveFrom(static_cast<mrpt::io::CStream&>(stream_));
-    archive << pose << seen;
-    file_.write(make_gzip_member(stream_.bytes(), 0));
+    const auto seen = mrpt::obs::CSensoryFrame::Create();
+    seen->insert(make_scan(frame));
+    const auto pose = mrpt::poses::CPose3DPDFGaussian::Create(mrpt_pose(frame.world_from_camera));
+    pose->cov.setZero();  // it is the truth
+    mrpt::maps::CSimpleMap map;
+    map.insert(mrpt::poses::CPose3DPDF::Ptr(pose), seen);
+    const std::string bytes = bytes_of(map);
+    const std::size_t begin = empty_.before_count.size() + sizeof(std::uint32_t);
+    file_.write(make_gzip_member(bytes.substr(begin, bytes.size() - begin - empty_.after_frames.size()), 0));
   }
 
   mrpt::obs::CObservation3DRangeScan::Ptr make_scan(const Frame& frame) const {
@@ -138,7 +144,6 @@ class SimplemapRecorder : public Recorder {
   EmptyMap empty_;
   std::uint32_t key_frames_ = 0;
   Pose last_;
-  MemoryStream stream_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <regex>
 
 #include "tests/app/program.h"
 
@@ -46,13 +47,16 @@ TEST_F(Readers, RosbagListsTheTopics) {
 }
 
 TEST_F(Readers, RosbagChecksTheMessages) {
+  if (std::system("/usr/bin/python3 -c 'import sys; sys.exit(sys.version_info < (3, 13))'") == 0)
+    GTEST_SKIP() << "`rosbag check` of ROS 1 reads locals() that exec() made, which Python 3.13 has no more";
   read_with("/usr/bin/python3 /usr/bin/rosbag check " + file("mission.bag"));
 }
 
 TEST_F(Readers, RawlogEditCountsTheObservations) {
   const std::string info = read_with("rawlog-edit --info -i " + file("mission.rawlog"));
-  for (const char* row : {"camera /      5 /30.000", "ground_truth /      5 /30.000"})
-    EXPECT_NE(info.find(row), std::string::npos) << row << "\n" << info;
+  // MRPT 2.14 writes a blank behind each stroke.
+  for (const char* row : {"camera /      5 / ?30.000", "ground_truth /      5 / ?30.000"})
+    EXPECT_TRUE(std::regex_search(info, std::regex(row))) << row << "\n" << info;
 }
 
 TEST_F(Readers, ExportWritesEveryFormatOfAFinishedRun) {

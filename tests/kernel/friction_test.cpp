@@ -89,5 +89,30 @@ TEST(Friction, BarsAcrossTiltedEdgesStayWhereTheyLie) {
   EXPECT_GT(lying, 80);
 }
 
+// How far a box slides down a fixed slab in 1 s.
+double slide(double box_friction, double slab_friction, double slope) {
+  std::vector<PieceType> types{box_type("slab", 6, 2, 0.2), box_type("box", 0.4, 0.4, 0.2)};
+  types[0].friction = slab_friction, types[1].friction = box_friction;
+  WorldOptions options;
+  options.sleeping = false;
+  options.threads = 1;
+  World world(types, options);
+  const Quat tilt = turned({0, 1, 0}, std::atan(slope));
+  const Pose slab{tilt, {0, 0, 3}};
+  world.add({at(0, slab.translation, tilt, true), at(1, slab * Vec3{-1, 0, 0.2}, tilt)});
+  const Vec3 before = world.piece(1).world_from_body.translation;
+  run(world, 1);
+  return distance(world.piece(1).world_from_body.translation, before);
+}
+
+// 0.2 on 0.8 is 0.4, whichever of the two is below.
+TEST(Friction, OfAPairIsTheGeometricMean) {
+  for (const auto& [box, slab] : {std::pair(0.2, 0.8), {0.8, 0.2}}) {
+    EXPECT_LT(slide(box, slab, 0.37), 0.002);
+    const double slope = 0.6, cosine = 1 / std::sqrt(1 + slope * slope);
+    EXPECT_NEAR(slide(box, slab, slope), 0.5 * 9.81 * (slope - 0.4) * cosine, 0.05);
+  }
+}
+
 }  // namespace friction_test
 }  // namespace rubble

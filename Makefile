@@ -95,7 +95,7 @@ demo: build
 	@echo "Open the contact sheet out/demo/preview.png, and the page out/demo/view.html in a browser."
 
 # All pictures of the documents but the film, and the tables that are drawn with them; hours. It goes on where it stopped.
-# PICTURES: some of the steps alone, as in PICTURES="film drive"; tools/draw_pictures.py --list has their names.
+# PICTURES: some of the steps alone, as in PICTURES="demo drive"; tools/draw_pictures.py --list has their names.
 pictures: packages build/release/build.ninja
 	@tools/install_packages.sh tools/packages-pictures.txt
 	@grep -q '^BUILD_TESTING:BOOL=ON' build/release/CMakeCache.txt || cmake --preset release -DBUILD_TESTING=ON

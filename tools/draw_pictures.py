@@ -23,13 +23,12 @@ COLLAPSE = "docs/explanation/collapse.md"
 
 
 def mission_steps():
-    """A step for each mission that has pictures; some have two."""
+    """A step for each mission that has pictures, by the name of the first; some have two."""
     names = {}
     for name, row in mission_pictures.PICTURES.items():
         names.setdefault(row[0], []).append(name)
-    for mission, pictures in names.items():
-        step = os.path.splitext(os.path.basename(mission))[0]
-        yield step, ["tools/mission_pictures.py --program {program} --out {work}/missions " + " ".join(pictures)]
+    for pictures in names.values():
+        yield os.path.splitext(pictures[0])[0], ["tools/mission_pictures.py --program {program} --out {work}/missions " + " ".join(pictures)]
 
 
 def gallery_steps():

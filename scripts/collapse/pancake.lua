@@ -1,4 +1,4 @@
--- A pancake: floors stacked on one another, gaps held open by columns and furniture between them.
+-- A pancake: floors stacked on one another; columns and furniture keep gaps open.
 return rubble.mission {
   seed = 4,
   pile = rubble.collapse.pancake {

@@ -91,7 +91,7 @@ TEST_F(DataFiles, WhatAnElevationModelLacksIsSaid) {
   EXPECT_NE(terrain_error("'degrees.tif'").find("degrees: give `length`"), std::string::npos);
   EXPECT_EQ(terrain("'degrees.tif', { length = 30 }").scenario.pile.terrain.spacing, 30);
   write("map.gif", "GIF89a");
-  EXPECT_NE(terrain_error("'map.gif'").find("is a GIF picture; PNG, JPEG, TIFF, PGM and OpenEXR are read"), std::string::npos);
+  EXPECT_NE(terrain_error("'map.gif'").find("is a GIF picture; PNG, JPEG, TIFF, OpenEXR, WebP, BMP, PGM, PPM, PBM and PFM are read: convert it"), std::string::npos);
   write("m.tif", TiffBytes(2, 2, 3, std::vector<float>{1, 2, 3, 4}).bytes());
   EXPECT_NE(error_of([&] { load("pile = rubble.include('m.tif')"); }).find("but a picture: rubble.read_image reads it"), std::string::npos);
 }

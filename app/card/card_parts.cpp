@@ -1,6 +1,8 @@
 #include "app/card/card_parts.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <vector>
 
 #include "kernel/base/text.h"
 #include "scripting/values/value.h"
@@ -37,35 +39,60 @@ std::string table_cell(const std::string& text) {
 
 std::string table_row(const std::string& a, const std::string& b) { return "| " + a + " | " + b + " |\n"; }
 
-std::string describe_sensors(const Scenario& s, std::size_t frames) {
-  const Intrinsics k = s.camera.intrinsics();
-  std::string text = "## Sensors\n\n| sensor | |\n| --- | --- |\n";
-  text += table_row("colour camera", std::to_string(k.width) + " x " + std::to_string(k.height) + " at " +
-                                   format_number(s.trajectory.rate_hz) + " Hz, " + std::to_string(frames) + " frames");
+namespace {
+
+std::string carried_by(const Carrier& ride) {
+  return ride.on() ? ", on " + printable(ride.robot + "/" + ride.link) : std::string();
+}
+
+// frames: of a single camera; 0: it is one of several.
+std::string describe_camera(const Scenario& s, const MountedCamera& mounted, std::size_t frames) {
+  const Intrinsics k = mounted.camera.intrinsics();
+  const std::string name = frames > 0 ? "" : " `" + mounted.name + "`", number = frames > 0 ? ", " + std::to_string(frames) + " frames" : "";
+  std::string text = table_row("colour camera" + name, std::to_string(k.width) + " x " + std::to_string(k.height) + " at " +
+                                   format_number(mounted.rate_hz.value_or(s.trajectory.rate_hz)) + " Hz" + number + carried_by(mounted.ride));
   text += table_row("its lens", describe_lens(k));
-  if (s.camera.stereo_baseline > 0)
-    text += table_row("stereo", "a second camera " + format_number(s.camera.stereo_baseline) + " m to the right");
-  text += table_row("depth", s.depth_sensor.type == DepthSensorType::none
+  if (mounted.camera.stereo_baseline > 0)
+    text += table_row("stereo", "a second camera " + format_number(mounted.camera.stereo_baseline) + " m to the right");
+  text += table_row("depth", mounted.depth_sensor.type == DepthSensorType::none
                            ? "exact, along the optical axis, without anti-aliasing"
                            : "exact, and as the depth sensor of the mission measures it");
-  if (s.imu.on) {
-    const ImuModel& m = s.imu.model;
-    text += table_row("inertial unit", format_number(m.rate_hz) + " Hz in the camera body; densities: gyroscope " +
-                                     format_number(m.gyroscope_noise) + " rad/s/sqrt(Hz), accelerometer " +
-                                     format_number(m.accelerometer_noise) + " m/s2/sqrt(Hz)");
+  if (mounted.event_camera.on) text += table_row("event camera", "the pixels of the colour camera");
+  return text;
+}
+
+}  // namespace
+
+std::string describe_sensors(const Scenario& s, std::size_t frames) {
+  const std::vector<MountedCamera> cameras = all_cameras(s);
+  const std::vector<ImuScenario> imus = all_imus(s);
+  std::string text = "## Sensors\n\n| sensor | |\n| --- | --- |\n";
+  for (const MountedCamera& mounted : cameras) text += describe_camera(s, mounted, cameras.size() == 1 ? frames : 0);
+  if (cameras.size() > 1) text += table_row("frames", std::to_string(frames) + " of all cameras");
+  for (const ImuScenario& imu : imus) {
+    const ImuModel& m = imu.model;
+    text += table_row("inertial unit" + (imus.size() > 1 ? " `" + imu.name + "`" : std::string()),
+                      format_number(m.rate_hz) + " Hz; densities: gyroscope " + format_number(m.gyroscope_noise) +
+                          " rad/s/sqrt(Hz), accelerometer " + format_number(m.accelerometer_noise) + " m/s2/sqrt(Hz)" +
+                          carried_by(imu.ride));
   }
   for (const LidarScenario& lidar : s.lidars)
-    text += table_row("LiDAR `" + lidar.name + "`", lidar.spec().model + ", " + format_number(lidar.spec().rate_hz) + " scans/s");
-  if (s.event_camera.on) text += table_row("event camera", "the pixels of the colour camera");
+    text += table_row("LiDAR `" + lidar.name + "`", lidar.spec().model + ", " + format_number(lidar.spec().rate_hz) +
+                                                        " scans/s" + carried_by(lidar.ride));
   return text + "\n";
 }
 
 std::string describe_truth(const Scenario& s) {
   std::string text = "## Ground truth\n\nPoses of the camera at each stamp; exact depth; the settled pile as a mesh";
-  for (const std::string& channel : s.camera.channels) text += "; per pixel `" + channel + "`";
+  std::vector<std::string> channels;
+  for (const MountedCamera& mounted : all_cameras(s))
+    for (const std::string& channel : mounted.camera.channels)
+      if (std::find(channels.begin(), channels.end(), channel) == channels.end()) channels.push_back(channel);
+  for (const std::string& channel : channels) text += "; per pixel `" + channel + "`";
+  const std::string truth = s.cameras.empty() ? "`groundtruth.txt`" : "`cameras/NAME/groundtruth.txt`";
   return text + ".\n\n## Frames\n\nMetres, seconds, right-handed. World: Z up, the ground is z = 0. Camera body "
-                "(REP 103): X forward, Y left, Z up. Optical frame: Z forward, X right, Y down. "
-                "`groundtruth.txt` has the optical frame in the world, as TUM writes it.\n\n";
+                "(REP 103): X forward, Y left, Z up. Optical frame: Z forward, X right, Y down. " + truth +
+                " has the optical frame in the world, as TUM writes it.\n\n";
 }
 
 std::string make_card_head(const std::string& title, const std::string& licence) {

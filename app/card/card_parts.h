@@ -15,7 +15,7 @@ std::string yaml_quoted(const std::string& text);
 std::string table_cell(const std::string& text);
 std::string table_row(const std::string& a, const std::string& b);
 
-// Sections, with their headings. frames: of the colour camera
+// Sections, with their headings. frames: of all cameras
 std::string describe_sensors(const Scenario& scenario, std::size_t frames);
 std::string describe_truth(const Scenario& scenario);  // and the frames of reference
 

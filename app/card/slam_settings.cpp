@@ -1,6 +1,7 @@
 #include "app/card/slam_settings.h"
 
 #include <cstdio>
+#include <optional>
 #include <vector>
 
 namespace rubble {
@@ -28,12 +29,15 @@ struct Camera {
   const Scenario& scenario;
   MountedCamera mounted;
   Intrinsics k;
-  bool fisheye, stereo, imu;
+  bool fisheye, stereo;
+  std::optional<ImuScenario> imu;  // the first on the camera's carrier
 
   explicit Camera(const Scenario& s)
       : scenario(s), mounted(all_cameras(s).front()), k(mounted.camera.intrinsics()),
-        fisheye(k.lens == LensModel::fisheye), stereo(mounted.camera.stereo_baseline > 0),
-        imu(s.imu.on) {}
+        fisheye(k.lens == LensModel::fisheye), stereo(mounted.camera.stereo_baseline > 0) {
+    for (const ImuScenario& unit : all_imus(s))
+      if (!imu && unit.ride == mounted.ride) imu = unit;
+  }
   // radtan has no k3; what has one is said in the card.
   std::vector<double> four() const {
     return {k.distortion[0], k.distortion[1], k.distortion[2], k.distortion[3]};
@@ -49,7 +53,7 @@ using Rows = std::vector<std::vector<double>>;
 // Points of the inertial unit in the optical frame (Z forward, X right) of the camera, or of the right one.
 Rows optical_from_imu(const Camera& c, bool right) {
   const Pose rig_from_camera = c.mounted.is_rig() ? Pose{} : c.mounted.rig_from_camera();
-  const Pose rig_from_imu = c.scenario.imu.is_rig() ? Pose{} : c.scenario.imu.rig_from_imu();
+  const Pose rig_from_imu = c.imu->is_rig() ? Pose{} : c.imu->rig_from_imu();
   const Pose body_from_imu = rig_from_camera.inverse() * rig_from_imu;
   const Mat3 turn = body_from_imu.rotation.matrix();
   const Vec3& shift = body_from_imu.translation;
@@ -121,7 +125,7 @@ std::string orbslam3(const Camera& c) {
           row("Camera.fps", int(c.rate() + 0.5)) + row("Camera.RGB", 1) + row("Stereo.ThDepth", 40.0) +
           row("Stereo.b", c.stereo ? c.baseline() : 0.075) + row("RGBD.DepthMapFactor", 5000.0);
   if (c.imu) {
-    const ImuModel& m = c.scenario.imu.model;
+    const ImuModel& m = c.imu->model;
     text += opencv_matrix("IMU.T_b_c1", inverse_of(optical_from_imu(c, false))) +
             row("IMU.InsertKFsWhenLost", 0) + row("IMU.NoiseGyro", m.gyroscope_noise) +
             row("IMU.NoiseAcc", m.accelerometer_noise) + row("IMU.GyroWalk", m.gyroscope_walk) +
@@ -159,7 +163,7 @@ std::string kalibr_imu(const ImuScenario& imu) {
   return row("accelerometer_noise_density", m.accelerometer_noise) +
          row("accelerometer_random_walk", m.accelerometer_walk) +
          row("gyroscope_noise_density", m.gyroscope_noise) +
-         row("gyroscope_random_walk", m.gyroscope_walk) + "rostopic: " + imu.topic.value_or("/imu") + "\n" +
+         row("gyroscope_random_walk", m.gyroscope_walk) + "rostopic: " + imu.topic.value_or("/" + imu.name) + "\n" +
          row("update_rate", m.rate_hz);
 }
 
@@ -224,9 +228,9 @@ std::map<std::string, std::string> make_slam_settings(const Scenario& scenario) 
       "{\n  \"align\": true,\n  \"correct_scale\": false,\n  \"pose_relation\": \"trans_part\",\n"
       "  \"t_max_diff\": 0.001\n}\n";
   if (!camera.imu) return files;
-  files["kalibr/imu.yaml"] = kalibr_imu(scenario.imu);
+  files["kalibr/imu.yaml"] = kalibr_imu(*camera.imu);
   files["openvins/estimator_config.yaml"] = openvins_estimator(camera);
-  files["openvins/kalibr_imu_chain.yaml"] = openvins_imu(scenario.imu);
+  files["openvins/kalibr_imu_chain.yaml"] = openvins_imu(*camera.imu);
   files["openvins/kalibr_imucam_chain.yaml"] = "%YAML:1.0\n" + camera_chain(camera);
   return files;
 }

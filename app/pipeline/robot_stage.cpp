@@ -109,6 +109,10 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
       return !stop_requested();
     });
     throw_if_stopped(folder.path());
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+      const RobotSense last{run.world().time(), run.world().robot_state(int(i)), run.world().robot_contacts(int(i))};
+      if (!last.state.lost) logs[i].note(last);
+    }
     driven.mount = rides.finish(options.step, driven.records, driven.readings);
     return true;
   });

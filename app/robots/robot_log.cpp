@@ -15,6 +15,8 @@ RobotSample::Odometry describe(const OdometryReading& reading) {
   RobotSample::Odometry odometry;
   odometry.odom_from_base = {portable::quat_from_rpy(0, 0, reading.yaw), {reading.x, reading.y, 0}};
   odometry.linear = reading.linear, odometry.angular = reading.angular;
+  odometry.covariance = reading.covariance;
+  odometry.linear_variance = reading.linear_variance, odometry.angular_variance = reading.angular_variance;
   return odometry;
 }
 

@@ -6,14 +6,17 @@
 namespace rubble {
 namespace {
 
+constexpr std::int64_t kRounding = 1000;  // of stamps; unit: ns
+
+// Whole scans, as other streams end with the last frame; where none fits, one all the same.
 class LidarSensor : public Sensor {
  public:
   LidarSensor(std::unique_ptr<Lidar> lidar, int number, std::int64_t last_ns)
       : lidar_(std::move(lidar)), number_(number), last_ns_(last_ns) {}
 
   std::optional<std::int64_t> next_stamp() const override {
-    const std::int64_t stamp = lidar_->stamp_ns(next_);
-    return stamp <= last_ns_ ? std::optional(stamp) : std::nullopt;
+    const std::int64_t stamp = lidar_->stamp_ns(next_), end = lidar_->stamp_ns(next_ + 1);
+    return end <= last_ns_ + kRounding || (next_ == 0 && stamp <= last_ns_) ? std::optional(stamp) : std::nullopt;
   }
   Sample take() override {
     LidarScan scan = lidar_->take(next_++);

@@ -50,14 +50,12 @@ void RobotTopics::write(const RobotSample& sample, std::uint32_t tf_topic) {
   write_joints(robot, topics, sample);
   const std::string base = robot.frame_of(0);
   if (sample.odometry) {
-    const RobotSample::Odometry& o = *sample.odometry;
     file_.write(topics.odometry, sample.stamp_ns,
-                ros::odometry(version, header(robot.frame + kOdom), base, o.odom_from_base,
-                              {o.linear, 0, 0}, {0, 0, o.angular}));
+                ros::odometry(version, header(robot.frame + kOdom), base, *sample.odometry));
   }
   file_.write(topics.truth, sample.stamp_ns,
-              ros::odometry(version, header(ros::kWorld), base, sample.world_from_base,
-                            sample.linear_velocity, sample.angular_velocity));
+              ros::true_odometry(version, header(ros::kWorld), base, sample.world_from_base,
+                                 sample.linear_velocity, sample.angular_velocity));
   for (std::size_t k = 0; k < sample.contacts.size(); ++k)
     file_.write(topics.contacts, sample.stamp_ns,
                 ros::wrench_stamped(version, header(robot.frame_of(int(k))), sample.contacts[k].force,

@@ -1,5 +1,6 @@
 #include "io/ros/ros_messages.h"
 
+#include <array>
 #include <cstring>
 #include <limits>
 
@@ -208,18 +209,50 @@ std::string joint_state(Version version, const Header& header, const std::vector
   return out.take();
 }
 
-std::string odometry(Version version, const Header& header, const std::string& child, const Pose& pose,
-                     const Vec3& linear, const Vec3& angular) {
-  constexpr int kCovariances = 36;
+namespace {
+
+using Covariance = std::array<std::array<double, 6>, 6>;  // x, y, z, and turns about them
+
+std::string put_odometry(Version version, const Header& header, const std::string& child, const Pose& pose,
+                         const Covariance& of_pose, const Vec3& linear, const Vec3& angular, const Covariance& of_twist) {
   Wire out(version, 800);
   put_header(out, header);
   out.text(child);
   put_pose(out, pose);
-  for (int i = 0; i < kCovariances; ++i) out.number(0.0);
+  for (const auto& row : of_pose)
+    for (const double value : row) out.number(value);
   put_vector(out, linear);
   put_vector(out, angular);
-  for (int i = 0; i < kCovariances; ++i) out.number(0.0);
+  for (const auto& row : of_twist)
+    for (const double value : row) out.number(value);
   return out.take();
+}
+
+constexpr double kUnknown = 1e6, kLeast = 1e-6;  // variances in SI units
+
+Covariance unknown_out_of_plane() {
+  Covariance covariance{};
+  for (const std::size_t axis : {2, 3, 4}) covariance[axis][axis] = kUnknown;
+  return covariance;
+}
+
+}  // namespace
+
+std::string true_odometry(Version version, const Header& header, const std::string& child, const Pose& pose,
+                          const Vec3& linear, const Vec3& angular) {
+  return put_odometry(version, header, child, pose, {}, linear, angular, {});
+}
+
+std::string odometry(Version version, const Header& header, const std::string& child, const RobotSample::Odometry& o) {
+  constexpr std::size_t kAxes[3] = {0, 1, 5};  // x, y, yaw
+  Covariance of_pose = unknown_out_of_plane(), of_twist = unknown_out_of_plane();
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) of_pose[kAxes[i]][kAxes[j]] = o.covariance[i][j];
+    of_pose[kAxes[i]][kAxes[i]] += kLeast;
+  }
+  of_twist[0][0] = of_twist[1][1] = o.linear_variance + kLeast;  // sideways as forwards: it slips there, too
+  of_twist[5][5] = o.angular_variance + kLeast;
+  return put_odometry(version, header, child, o.odom_from_base, of_pose, {o.linear, 0, 0}, {0, 0, o.angular}, of_twist);
 }
 
 std::string wrench_stamped(Version version, const Header& header, const Vec3& force,

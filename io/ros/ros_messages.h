@@ -14,6 +14,7 @@
 #include "render/scene/frame.h"
 #include "render/scene/lidar_scan.h"
 #include "render/scene/lidar_spec.h"
+#include "render/scene/robot_sample.h"
 
 namespace rubble::ros {
 
@@ -67,9 +68,11 @@ std::string imu(Version version, const Header& header, const ImuSample& sample,
 std::string joint_state(Version version, const Header& header, const std::vector<std::string>& names,
                         const std::vector<double>& positions, const std::vector<double>& speeds,
                         const std::vector<double>& efforts);
-// header.frame: the one that `pose` is in; velocities in the child's own. Without covariances (all 0: unknown).
-std::string odometry(Version version, const Header& header, const std::string& child, const Pose& pose,
-                     const Vec3& linear, const Vec3& angular);
+// header.frame: the one that `pose` is in; velocities in the child's own. Exact, so its covariances are all 0.
+std::string true_odometry(Version version, const Header& header, const std::string& child, const Pose& pose,
+                          const Vec3& linear, const Vec3& angular);
+// What dead reckoning does not tell (height, roll, pitch) has the variance 1e6; no other is below 1e-6.
+std::string odometry(Version version, const Header& header, const std::string& child, const RobotSample::Odometry& reading);
 std::string wrench_stamped(Version version, const Header& header, const Vec3& force,
                            const Vec3& moment);
 // dvs_msgs/EventArray, as drivers of event cameras publish.

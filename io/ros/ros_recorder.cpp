@@ -48,6 +48,7 @@ class RosRecorder : public Recorder {
 
   void write(const Frame& frame) override {
     order_.check(frame);
+    tick(frame.stamp_ns);
     if (frame.stamp_ns != last_ns_) write_instant(frame);
     const CameraRecord& camera = recording_.cameras[std::size_t(frame.sensor)];
     write_rig(frame, camera);
@@ -67,6 +68,7 @@ class RosRecorder : public Recorder {
   }
 
   void write_imu(const ImuSample& sample) override {
+    tick(sample.stamp_ns);
     const auto i = std::size_t(sample.sensor);
     const ImuRecord& imu = recording_.imus.at(i);
     const ImuModel& model = imu.model;
@@ -79,6 +81,7 @@ class RosRecorder : public Recorder {
 
   // After the descriptions and fixed transforms, which come with the first frame.
   void write_robot(const RobotSample& sample) override {
+    tick(sample.stamp_ns);
     if (instants_ > 0)
       robots_->write(sample, tf_);
     else
@@ -86,6 +89,7 @@ class RosRecorder : public Recorder {
   }
 
   void write_lidar(const LidarScan& scan) override {
+    tick(scan.stamp_ns);
     const auto i = std::size_t(scan.sensor);
     const LidarRecord& lidar = recording_.lidars.at(i);
     const ros::Header stamped{scan_counts_[i]++, scan.stamp_ns, lidar.frame_id};
@@ -106,7 +110,8 @@ class RosRecorder : public Recorder {
     clock_ = file_->add("/clock", ros::kClock, false);
     tf_static_ = file_->add("/tf_static", ros::kTfMessage, true);
     tf_ = file_->add("/tf", ros::kTfMessage, false);
-    pose_ = file_->add("/ground_truth/pose", ros::kPoseStamped, false);
+    if (std::any_of(recording_.cameras.begin(), recording_.cameras.end(), [](const CameraRecord& c) { return c.carrier.empty(); }))
+      pose_ = file_->add("/ground_truth/pose", ros::kPoseStamped, false);
     for (const CameraRecord& camera : recording_.cameras) {
       CameraTopics& topics = cameras_.emplace_back();
       add_pictures(camera, topics);
@@ -177,9 +182,15 @@ class RosRecorder : public Recorder {
                     channels * static_cast<int>(sizeof(T)), values.data()));
   }
 
+  // The clock has every stamp that a stream has.
+  void tick(std::int64_t stamp_ns) {
+    if (stamp_ns == clock_ns_) return;
+    clock_ns_ = stamp_ns;
+    file_->write(clock_, stamp_ns, ros::clock(version_, stamp_ns));
+  }
+
   // Once for the frames of all cameras at one instant.
   void write_instant(const Frame& frame) {
-    send(clock_, frame, ros::clock(version_, frame.stamp_ns));
     if (instants_++ == 0) write_constants(frame);
     last_ns_ = frame.stamp_ns;
     write_rig(frame, recording_.cameras[std::size_t(frame.sensor)]);
@@ -294,6 +305,7 @@ class RosRecorder : public Recorder {
   std::uint32_t instants_ = 0, rigs_ = 0;
   std::int64_t rig_ns_ = -1;               // of the last pose of the rig
   std::int64_t last_ns_ = -1;              // of the last instant
+  std::int64_t clock_ns_ = -1;             // of the last tick
   std::vector<std::uint32_t> imu_counts_;   // readings of each unit
   std::vector<std::uint32_t> scan_counts_;  // scans of each LiDAR
   // Numbers of the topics.

@@ -1,7 +1,6 @@
 #include "kernel/base/mesh.h"
 
-#include <map>
-#include <tuple>
+#include "kernel/base/mesh_edges.h"
 
 namespace rubble {
 
@@ -46,22 +45,6 @@ VolumeProperties calc_volume_properties(const TriangleMesh& mesh) {
   return result;
 }
 
-bool is_closed(const TriangleMesh& mesh) {
-  std::map<std::tuple<float, float, float>, std::uint32_t> welded;
-  std::vector<std::uint32_t> id(mesh.positions.size());
-  for (std::size_t i = 0; i < id.size(); ++i) {
-    const Vec3f& p = mesh.positions[i];
-    id[i] = welded.emplace(std::make_tuple(p.x, p.y, p.z), std::uint32_t(welded.size()))
-                .first->second;
-  }
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-  for (const auto& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) ++edges[{id[t[k]], id[t[(k + 1) % 3]]}];
-  for (const auto& [edge, count] : edges) {
-    const auto back = edges.find({edge.second, edge.first});
-    if (count != 1 || back == edges.end() || back->second != 1) return false;
-  }
-  return !edges.empty();
-}
+bool is_closed(const TriangleMesh& mesh) { return !mesh.triangles.empty() && find_open_edges(mesh).count == 0; }
 
 }  // namespace rubble

@@ -1,5 +1,6 @@
 #include "kernel/robot/odometry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -47,6 +48,31 @@ double WheelOdometry::way_of(const std::vector<int>& side, const RobotState& sta
   return way / double(side.size());
 }
 
+// First-order propagation along an arc, whose heading is that of its middle.
+void WheelOdometry::grow_covariance(double ran_left, double ran_right, double way, double heading) {
+  const double error = std::max(noise_, kLeastOdometryError), width = model_->sides.distance;
+  const double left = error * error * std::abs(ran_left), right = error * error * std::abs(ran_right);
+  const auto [s, c] = portable::sincos(heading);
+  auto& p = reading_.covariance;
+  // What an error of yaw before it does to the place after it.
+  const double fx = -way * s, fy = way * c;
+  const double xy = p[0][1], xt = p[0][2], yt = p[1][2], tt = p[2][2];
+  p[0][0] += 2 * fx * xt + fx * fx * tt;
+  p[0][1] = xy + fy * xt + fx * yt + fx * fy * tt;
+  p[1][1] += 2 * fy * yt + fy * fy * tt;
+  p[0][2] = xt + fx * tt;
+  p[1][2] = yt + fy * tt;
+  // What each side adds: d(x, y, yaw) by its way.
+  for (const int side : {-1, 1}) {
+    const double variance = side < 0 ? left : right, turn = side / width;
+    const double g[3] = {0.5 * c - 0.5 * way * s * turn, 0.5 * s + 0.5 * way * c * turn, turn};
+    for (int i = 0; i < 3; ++i)
+      for (int j = i; j < 3; ++j) p[i][j] += variance * g[i] * g[j];
+  }
+  p[1][0] = p[0][1], p[2][0] = p[0][2], p[2][1] = p[1][2];
+  reading_.linear_variance = 0.25 * (left + right), reading_.angular_variance = (left + right) / (width * width);
+}
+
 OdometryReading WheelOdometry::update(const RobotState& state, double time) {
   const Pose& base = state.links[0].world_from_link;
   const double yaw = yaw_of(base.rotation), dt = time - time_;
@@ -59,6 +85,7 @@ OdometryReading WheelOdometry::update(const RobotState& state, double time) {
     const double way = 0.5 * (left + right), turn = 0.5 * (right - left) / half;
     const auto [s, c] = portable::sincos(r.yaw + 0.5 * turn);
     r.x += way * c, r.y += way * s;
+    grow_covariance(ran_left, ran_right, way, r.yaw + 0.5 * turn);
     r.yaw = wrapped(r.yaw + turn);
     const double true_turn = wrapped(yaw - true_yaw_);
     const auto [ts, tc] = portable::sincos(true_yaw_ + 0.5 * true_turn);
@@ -69,6 +96,7 @@ OdometryReading WheelOdometry::update(const RobotState& state, double time) {
     ran_ += std::abs(ran_left) + std::abs(ran_right);
     const double rate = 1 / dt;
     r.linear = way * rate, r.angular = turn * rate;
+    r.linear_variance *= rate * rate, r.angular_variance *= rate * rate;
     r.left = left * rate, r.right = right * rate;
     r.true_left = true_left * rate, r.true_right = true_right * rate;
     r.true_linear = true_way * rate, r.true_angular = true_turn * rate;

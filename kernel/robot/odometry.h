@@ -1,6 +1,8 @@
 // Odometry of robots with differential drive: readings of belts or wheel encoders, and the truth.
 #pragma once
 
+#include <array>
+
 #include "kernel/base/random.h"
 #include "kernel/model/robot.h"
 
@@ -10,6 +12,9 @@ namespace rubble {
 struct OdometryReading {
   double x = 0, y = 0, yaw = 0;        // of the base in the plane of its start; unit: m, rad
   double linear = 0, angular = 0;      // forwards, counter-clockwise; unit: m/s, rad/s
+  // What the random error of the encoders adds up to; of slip it knows nothing. Of x, y and yaw; unit: m2, m rad, rad2
+  std::array<std::array<double, 3>, 3> covariance{};
+  double linear_variance = 0, angular_variance = 0;  // of the speeds; unit: (m/s)2, (rad/s)2
   double left = 0, right = 0;          // of the belts' or wheels' surfaces; unit: m/s
   double true_left = 0, true_right = 0;    // of the base at the middle of each side, forwards; unit: m/s
   double true_linear = 0, true_angular = 0;  // of the base; unit: m/s, rad/s
@@ -19,6 +24,9 @@ struct OdometryReading {
   double slip_left() const;
   double slip_right() const;
 };
+
+// A covariance supposes at least this error, which tracks have: nothing real is exact. As OdometryNoise::over_a_metre.
+inline constexpr double kLeastOdometryError = 0.001;
 
 // Random error of the encoders of a side. It is independent of the past, so its variance grows with the distance
 // (Kleeman 1995). Slip is not part of it: slip is simulated.
@@ -45,6 +53,7 @@ class WheelOdometry {
   double mean_slip() const { return ran_ > 0 ? slipped_ / ran_ : 0; }
 
  private:
+  void grow_covariance(double ran_left, double ran_right, double way, double heading);
   double way_of(const std::vector<int>& side, const RobotState& state, double dt) const;
   double as_measured(double way);
 

@@ -164,9 +164,9 @@ class Dataset:
         """dict of K (3, 3), width, height, model and D of the first frame."""
         return self._messages(topic, _camera_info)[1][0]
 
-    def pile(self, threads: int = 0) -> _core.Pile:
-        """The settled pile."""
-        return _core.open_pile(self.folder, threads)
+    def pile(self, threads: int = 0, assets: list[str] | None = None) -> _core.Pile:
+        """The settled pile. assets: as of open_pile()."""
+        return _core.open_pile(self.folder, threads, assets or [])
 
 
 def open_dataset(folder: str) -> Dataset:

@@ -1,6 +1,7 @@
 // Readings of the sensors of a robot: joint encoders, motor torques, contacts, odometry.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -17,6 +18,8 @@ struct RobotSample {
   struct Odometry {
     Pose odom_from_base;             // level; unit: m
     double linear = 0, angular = 0;  // forwards, counter-clockwise; unit: m/s, rad/s
+    std::array<std::array<double, 3>, 3> covariance{};  // of x, y and yaw; unit: m2, m rad, rad2
+    double linear_variance = 0, angular_variance = 0;   // unit: (m/s)2, (rad/s)2
   };
 
   std::int64_t stamp_ns = 0;

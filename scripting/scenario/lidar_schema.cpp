@@ -123,7 +123,7 @@ void add_lidar_keys(Schema& keys, Scenario& s) {
   keys.add("lidars",
            "LiDARs: `lidars = { top = { model = \"vlp16\" } }`. Names have lower-case letters, digits and "
            "underscores. A LiDAR is fixed to the rig, which flies the trajectory, or to a link of a robot (`ride`). "
-           "It scans from the start to the last camera frame, and sees the same smoke and dust.",
+           "It takes whole scans from the start to the last camera frame, at least one, and sees the same smoke and dust.",
            [&s](std::size_t) {
              return Schema::named_tables(s.lidars, &LidarScenario::name, "top", lidar_schema);
            });

@@ -169,6 +169,29 @@ TEST_F(Pack, RvizShowsEveryCameraAndLidarOfARig) {
   EXPECT_IN("PointCloud2", read_file(folder + "/settings/ros2.rviz"));
 }
 
+// Neither the default camera nor the default unit is in a mission with lists of them.
+TEST_F(Pack, TheCardOfARigHasItsCamerasAndUnits) {
+  write_file(scratch / "rig.lua", R"(return rubble.mission {
+  pile = { layers = 0, placed = { { box = { 1, 1, 0.5 }, position = { 0, 0, 0.25 } } } },
+  cameras = { front = { width = 64, height = 48, channels = { "label" } },
+              aside = { width = 32, height = 24, rate_hz = 20, position = { 0, 0.1, 0 } } },
+  imus = { inside = { rate_hz = 150 } }, outputs = { rawlog = false },
+  trajectory = { rate_hz = 10, waypoints = { { t = 0, position = { -3, 0, 1 }, look_at = { 0, 0, 0 } },
+                                             { t = 0.2, position = { -3, 0.1, 1 }, look_at = { 0, 0, 0 } } } } })");
+  const Outcome run = run_rubble("run " + (scratch / "rig.lua") + " --quiet --out " + folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  ASSERT_EQ(run_rubble("pack " + folder + " --card --settings").exit_code, 0);
+  const std::string card = read_file(folder + "/README.md");
+  for (const char* part : {"colour camera `front` | 64 x 48 at 10 Hz |", "colour camera `aside` | 32 x 24 at 20 Hz |",
+                           "frames | 8 of all cameras", "inertial unit | 150 Hz;", "per pixel `label`",
+                           "`cameras/NAME/groundtruth.txt`"})
+    EXPECT_IN(part, card);
+  EXPECT_EQ(card.find("1024"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder + "/settings/openvins/estimator_config.yaml"));
+  EXPECT_IN("update_rate: 150", read_file(folder + "/settings/kalibr/imu.yaml"));
+  EXPECT_IN("rostopic: /inside", read_file(folder + "/settings/kalibr/imu.yaml"));
+}
+
 // The unit and the camera at places and turns of their own, and topics that the mission names.
 TEST_F(Pack, CalibrationFollowsThePlacesAndNamesOfTheMission) {
   run_tiny("--set camera.topic=/eye --set imu.on=true --set imu.topic=/unit --set imu.position.x=0.2 "

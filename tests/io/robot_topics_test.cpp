@@ -178,7 +178,18 @@ TEST_P(RobotCdr, MessagesEqualFastCdr) {
   odometry.header(header_) << std::string("base_link");
   odometry.pose(kStart) << std::array<double, 36>{};
   odometry.vector({1, 2, 3}).vector({4, 5, 6}) << std::array<double, 36>{};
-  EXPECT_EQ(ros::odometry(kRos2, header_, "base_link", kStart, {1, 2, 3}, {4, 5, 6}), odometry.bytes());
+  EXPECT_EQ(ros::true_odometry(kRos2, header_, "base_link", kStart, {1, 2, 3}, {4, 5, 6}), odometry.bytes());
+  RobotSample::Odometry reading{kStart, 0.5, -0.25, {{{4, 1, 2}, {1, 5, 3}, {2, 3, 6}}}, 7, 8};
+  std::array<double, 36> of_pose{}, of_twist{};
+  of_pose[0] = 4 + 1e-6, of_pose[1] = of_pose[6] = 1, of_pose[5] = of_pose[30] = 2;
+  of_pose[7] = 5 + 1e-6, of_pose[11] = of_pose[31] = 3, of_pose[35] = 6 + 1e-6;
+  of_twist[0] = of_twist[7] = 7 + 1e-6, of_twist[35] = 8 + 1e-6;
+  for (const std::size_t axis : {2, 3, 4}) of_pose[7 * axis] = of_twist[7 * axis] = 1e6;
+  FastCdr reckoned;
+  reckoned.header(header_) << std::string("base_link");
+  reckoned.pose(kStart) << of_pose;
+  reckoned.vector({0.5, 0, 0}).vector({0, 0, -0.25}) << of_twist;
+  EXPECT_EQ(ros::odometry(kRos2, header_, "base_link", reading), reckoned.bytes());
   EXPECT_EQ(ros::wrench_stamped(kRos2, header_, {1, 2, 3}, {4, 5, 6}),
             FastCdr().header(header_).vector({1, 2, 3}).vector({4, 5, 6}).bytes());
 }

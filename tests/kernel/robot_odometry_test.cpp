@@ -1,6 +1,7 @@
 // Odometry of belts and wheels against the truth.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
@@ -124,6 +125,55 @@ TEST(OdometryNoise, OfTracksIsAsPublished) {
   EXPECT_NEAR(error, 0.43, 0.11) << "unit: m";
   EXPECT_EQ(end_of(0.001, 5, 0).y, end_of(0.001, 5, 0).y);
   EXPECT_NE(end_of(0.001, 5, 0).y, end_of(0.001, 5, 1).y) << "each robot has noise of its own";
+}
+
+// Encoders with an error, over many drives along an S: how far readings scatter is what each of them says.
+TEST(Odometry, ScattersAsItsCovarianceSays) {
+  const RobotModel model = make_rover();
+  const double noise = 0.02, half = 0.5 * model.sides.distance;
+  const int drives = 4000, steps = 40;
+  std::array<double, 3> mean{}, stated{};
+  std::array<std::array<double, 3>, 3> square{};
+  OdometryReading reading;
+  for (int drive = 0; drive < drives; ++drive) {
+    WheelOdometry odometry(model, {noise, 7, drive});
+    RobotState state;
+    state.links.resize(model.links.size());
+    state.joints.resize(model.joints.size());
+    for (int i = 0; i <= steps; ++i) {
+      reading = odometry.update(state, 0.1 * i);
+      const double turn = i < steps / 2 ? 0.04 : -0.03, way = 0.1;
+      for (int k : model.sides.left) state.joints[std::size_t(k)].position += (way - turn * half) / model.sides.radius;
+      for (int k : model.sides.right) state.joints[std::size_t(k)].position += (way + turn * half) / model.sides.radius;
+    }
+    const std::array<double, 3> at{reading.x, reading.y, reading.yaw};
+    for (std::size_t i = 0; i < 3; ++i) {
+      mean[i] += at[i] / drives;
+      stated[i] += reading.covariance[i][i] / drives;
+      for (std::size_t j = 0; j < 3; ++j) square[i][j] += at[i] * at[j] / drives;
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double variance = square[i][i] - mean[i] * mean[i];
+    EXPECT_NEAR(stated[i], variance, 0.1 * variance) << i;
+  }
+  const double along = square[1][2] - mean[1] * mean[2];
+  EXPECT_NEAR(reading.covariance[1][2], along, 0.15 * along);
+  EXPECT_EQ(reading.covariance[1][2], reading.covariance[2][1]);
+}
+
+TEST(Odometry, WithoutAnErrorItStillClaimsNoCertainty) {
+  const RobotModel model = make_rover();
+  WheelOdometry odometry(model);
+  RobotState state;
+  state.links.resize(model.links.size());
+  state.joints.resize(model.joints.size());
+  odometry.update(state, 0);
+  for (auto& joint : state.joints) joint.position = 1 / model.sides.radius;
+  const OdometryReading reading = odometry.update(state, 1);
+  EXPECT_NEAR(reading.x, 1, 1e-12);
+  EXPECT_NEAR(reading.covariance[0][0], 0.5 * kLeastOdometryError * kLeastOdometryError, 1e-12);
+  EXPECT_GT(reading.angular_variance, 0);
 }
 
 }  // namespace robot_odometry_test

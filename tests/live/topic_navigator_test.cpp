@@ -22,7 +22,7 @@ Pose pose_at(double x, double y, double yaw) { return {portable::quat_from_rpy(0
 TEST(RobotMessages, AreReadAsTheyWereWritten) {
   const Pose pose{portable::quat_from_rpy(0.1, -0.2, 0.7), {1, 2, 3}};
   const HeardOdometry odometry =
-      read_odometry(kRos1, ros::odometry(kRos1, {7, 1'500'000'000, "/odom"}, "base", pose, {}, {}));
+      read_odometry(kRos1, ros::true_odometry(kRos1, {7, 1'500'000'000, "/odom"}, "base", pose, {}, {}));
   EXPECT_EQ(odometry.stamp_ns, 1'500'000'000);
   EXPECT_EQ(odometry.frame, "odom");
   EXPECT_EQ(odometry.child, "base");
@@ -44,8 +44,8 @@ TEST(RobotMessages, PointsThatAreNotFiniteAreLeftOutAndCounted) {
   EXPECT_EQ(cloud.points.size(), 1u);
   EXPECT_EQ(cloud.left_out, 2u);
   const Pose lost{{1, 0, 0, 0}, {std::nan(""), 0, 0}};
-  EXPECT_THROW(read_odometry(kRos1, ros::odometry(kRos1, {}, "base", lost, {}, {})), RunError);
-  EXPECT_THROW(read_odometry(kRos1, ros::odometry(kRos1, {}, "base", {{0, 0, 0, 0}, {}}, {}, {})), RunError);
+  EXPECT_THROW(read_odometry(kRos1, ros::true_odometry(kRos1, {}, "base", lost, {}, {})), RunError);
+  EXPECT_THROW(read_odometry(kRos1, ros::true_odometry(kRos1, {}, "base", {{0, 0, 0, 0}, {}}, {}, {})), RunError);
 }
 
 TEST(RobotMessages, WhatIsCutShortIsNoMessage) {

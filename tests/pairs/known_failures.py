@@ -9,17 +9,8 @@ def any_row(row):
 
 # (name, judge, pattern of the text, which rows, cause)
 KNOWN = [
-    ("clock-coarse", "clock_is_finest", r"/clock has not", any_row,
-     "/clock ticks with the pictures; other streams of one recording are faster"),
-    ("odometry-ends", "odometry_lasts", r"ends .* before the last picture", any_row,
-     "robots record at their control rate, which need not meet the last picture"),
-    ("odometry-certain", "odometry_has_covariance", r"covariance is all zero", any_row, "odometry says that it is exact"),
-    ("scan-outlasts-imu", "imus_outlast_scans", r"past the last inertial reading", any_row,
-     "a scan that begins before the last picture ends after it; inertial units end with the picture"),
     ("imu-pauses", "imu_is_steady", r"pauses", lambda row: row.get("record_settling", "off") != "off",
      "with record_settling, inertial units are silent between the last picture of the settling and the flight"),
-    ("pose-undeclared", "topics_have_messages", r"/ground_truth/pose", any_row,
-     "/ground_truth/pose is declared where no camera is on the rig"),
 ]
 
 

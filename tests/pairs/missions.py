@@ -113,7 +113,7 @@ def make_mission(row, seed, name="row"):
                 put(mission, key, value)
     source = FUNCTION
     add_pile(mission, special, row)
-    robots = add_robots(mission, special)
+    robots = add_robots(mission, special, row)
     add_path(mission, special, robots)
     add_sensors(mission, special, robots)
     if "@packs" in special:
@@ -158,11 +158,13 @@ def add_pile(mission, special, row):
     special["pile"], special["more"] = source, more
 
 
-def add_robots(mission, special):
+def add_robots(mission, special, row):
     robots = special.get("@robots", [])
     if not robots:
         return robots
     for robot in robots:
+        if row["building"] == "furnished" and row["cause"] in ("shake", "accelerogram"):
+            robot["position"] = [-7.4] + robot["position"][1:]  # its beams come as far as 6 m
         kind = robot.get("model") or robot["name"]
         drive, told = COMMANDS[kind]
         control = special.get("@control")

@@ -66,7 +66,7 @@ class Recording(unittest.TestCase):
 
     def test_scans_and_inertial_readings(self):
         stamps, scans = self.data.scans("/scan")
-        self.assertEqual(len(stamps), 41)
+        self.assertEqual(len(stamps), 40)
         # The scanner looks 30 degrees down from 2 m: the ground ahead is 4 m away.
         ahead = int(np.argmin(np.abs(scans[0]["angles"])))
         self.assertAlmostEqual(float(scans[0]["ranges"][ahead]), 4, places=4)

@@ -12,7 +12,7 @@
 namespace rubble {
 namespace {
 
-constexpr double kIntoMember = 0.001;  // unit: m
+constexpr double kIntoMember = 0.001;  // far less than contact lets pieces overlap, far more than rounding; unit: m
 
 using Triangle = std::array<Vec3, 3>;
 

@@ -79,6 +79,8 @@ PlannedFlight plan_flight(const ResolvedMission& mission, const SettledPile& pil
   const std::shared_ptr<const MotionPath> ride = robots.readings.ride;
   flight.legs = with_lines_of_script(
       mission, [&] { return plan_legs(flight.flown, ride ? ride : plan.path, pile.track, robots.readings); });
+  if (flight.flown.record_settling.on && flight.legs.size() == 1)
+    context.warnings.push_back("record_settling: the pile rests from the start: there is no settling to record");
   warn_of_cameras_inside(mission, flight.flown, flight.legs.back().flight, pile.state, context);
   return flight;
 }

@@ -69,7 +69,7 @@ std::vector<Leg> plan_legs(const Scenario& flown, std::shared_ptr<const MotionPa
   Leg flight;
   flight.scenario = flown;
   flight.noise_seed = flown.seed;
-  if (flown.record_settling.on) {
+  if (flown.record_settling.on && track.end() > 0) {
     legs.push_back(plan_watching(flown, track));
     flight.scenario.start_ns = end_of(legs.front(), track);
   }

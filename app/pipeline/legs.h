@@ -1,7 +1,7 @@
 // The legs of a recording: what the camera sees one after the other, in one sequence of frames.
 //
 // A mission has one leg, its flight over the settled pile. With `record_settling` another comes before
-// it: the camera stands and watches the pile settle. Stamps run on from the one to the other.
+// it: the camera stands and watches the pile settle, unless nothing moved. Stamps run on from the one to the other.
 #pragma once
 
 #include <cstdint>

@@ -96,8 +96,8 @@ mrpt::obs::CObservation2DRangeScan planar_scan(const LidarScan& scan, const Lida
 void write_lidar_observation(const LidarScan& scan, const LidarRecord& lidar,
                              const std::function<void(const mrpt::obs::CObservation&)>& write) {
   switch (lidar.spec.pattern) {
-    case LidarPattern::spinning:
-      return write(rotating_scan(scan, lidar));
+    case LidarPattern::spinning:  // a matrix of ranges has no place for beams of its own
+      return lidar.spec.regular ? write(rotating_scan(scan, lidar)) : write(point_cloud(scan, lidar));
     case LidarPattern::rosette:
       return write(point_cloud(scan, lidar));
     case LidarPattern::planar:

@@ -58,12 +58,12 @@ void Lidar::measure(const Slice& slice, std::size_t begin, std::size_t end, std:
     const Pose pose = between(slice.poses[knot], slice.poses[knot + 1],
                               double(ray.offset_ns - std::int64_t(knot) * kKnot) / double(kKnot));
     const float time = float(double(ray.offset_ns - slice.begin_ns) / double(slice.length_ns));
-    const Echoes echoes = beam.measure({pose.translation, pose.rotation.rotate(ray.direction), time}, slice.air,
+    const Echoes echoes = beam.measure({pose * ray.origin, pose.rotation.rotate(ray.direction), time}, slice.air,
                                        slice.noise, i);
     counts[i] = std::uint8_t(echoes.count);
     for (int e = 0; e < echoes.count; ++e) {
       const Echo& echo = echoes.list[std::size_t(e)];
-      const Vec3f at(ray.direction * echo.range);
+      const Vec3f at(ray.origin + ray.direction * echo.range);
       found[2 * i + std::size_t(e)] = {at.x,     at.y, at.z, float(echo.intensity), float(double(ray.offset_ns) * 1e-9),
                                        ray.ring, ray.column};
     }

@@ -23,15 +23,21 @@ double fraction(double turns) { return turns - std::floor(turns); }
 
 ScanPattern::ScanPattern(const LidarSpec& spec) : spec_(spec) {
   rays_.reserve(std::size_t(spec.rays()));
-  for (int c = 0; c < spec.columns; ++c)
+  for (int c = 0; c < spec.columns; ++c) {
+    const double column_deg = spec.first_azimuth_deg + spec.span_deg * c / spec.columns;
+    Vec3 origin;
+    if (spec.beam_radius != 0) origin = direction_of(column_deg * kRadian, 0) * spec.beam_radius;
+    origin.z = spec.beam_height;
     for (int r = 0; r < spec.rings(); ++r) {
       PatternRay ray;
       ray.offset_ns = c * spec.column_ns + spec.delays_ns[std::size_t(r)];
       ray.ring = std::uint16_t(r), ray.column = std::uint16_t(c);
-      ray.direction = direction_of((spec.first_azimuth_deg + spec.span_deg * c / spec.columns) * kRadian,
-                                   spec.elevations_deg[std::size_t(r)] * kRadian);
+      const double beside_deg = spec.azimuths_deg.empty() ? 0 : spec.azimuths_deg[std::size_t(r)];
+      ray.direction = direction_of((column_deg + beside_deg) * kRadian, spec.elevations_deg[std::size_t(r)] * kRadian);
+      ray.origin = origin;
       rays_.push_back(ray);
     }
+  }
   std::stable_sort(rays_.begin(), rays_.end(), [](const PatternRay& a, const PatternRay& b) {
     return a.offset_ns < b.offset_ns;
   });

@@ -1,7 +1,8 @@
 // Where the rays of a scan go, and when.
 //
 // spinning, planar: column c of ring r leaves c * column_ns + delays_ns[r] after the scan begins, at the
-//   azimuth first_azimuth + span * c / columns and the ring's elevation.
+//   azimuth first_azimuth + span * c / columns + azimuths_deg[r] and the ring's elevation. It leaves from a circle about
+//   the axis, at the column's azimuth, or from the origin.
 // rosette: a prism turns the beam round and another nods it, at rates whose ratio is no fraction, so
 //   that the lines of one scan fall between those of the scans before and the view fills with time:
 //     azimuth = 2 pi (f_a t + ring / rings),   elevation = middle + half * sin(2 pi (f_e t + ring / rings))
@@ -19,6 +20,7 @@ namespace rubble {
 
 struct PatternRay {
   Vec3 direction;              // in the frame of the sensor, unit length
+  Vec3 origin;                 // likewise; unit: m
   std::int64_t offset_ns = 0;  // since the scan began
   std::uint16_t ring = 0, column = 0;
 };

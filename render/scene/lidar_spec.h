@@ -21,6 +21,9 @@ struct LidarSpec {
   std::string model = "VLP-16";                        // for readers of recordings
   LidarPattern pattern = LidarPattern::spinning;       // where its rays go
   std::vector<double> elevations_deg;                  // of each ring, rising; unit: degree
+  std::vector<double> azimuths_deg{};                  // of each ring beside its column, from X towards Y; empty: 0
+  double beam_radius = 0, beam_height = 0;             // of the point that rays leave: from the axis of rotation, towards
+                                                       // the column; above the origin; unit: m
   std::vector<std::int64_t> delays_ns;                 // of each ring after its column begins
   int columns = 1;                                     // firings of each ring in a scan; above 0
   std::int64_t column_ns = 0;                          // from one firing to the next; above 0
@@ -39,6 +42,8 @@ struct LidarSpec {
 
   int rings() const { return int(elevations_deg.size()); }
   int rays() const { return rings() * columns; }       // of a scan
+  // Whether the number of its column and ring alone tells where a ray goes, rings at even distances.
+  bool regular = true;
 };
 
 }  // namespace rubble

@@ -5,16 +5,15 @@
 #include <functional>
 #include <optional>
 
-#include "kernel/base/error.h"
 #include "kernel/base/math.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/tables/text_table.h"
+#include "scripting/files/calibration_values.h"
+#include "scripting/files/ouster_metadata.h"
 #include "scripting/files/yaml_value.h"
 
 namespace rubble {
 namespace {
-
-using KeyNames = std::initializer_list<const char*>;
 
 struct CalibratedLens {
   std::string model = "pinhole";  // of `lens.model`
@@ -23,9 +22,9 @@ struct CalibratedLens {
   std::vector<double> coefficients;  // k1 k2 p1 p2 k3 of plumb_bob, k1 to k4 of fisheye
 };
 
-class CalibrationReader {
+class CalibrationReader : private CalibrationValues {
  public:
-  CalibrationReader(std::string_view text, const std::string& path) : path_(path), root_(parse_yaml(text, path)) {
+  CalibrationReader(std::string_view text, const std::string& path) : CalibrationValues(path), root_(parse_yaml(text, path)) {
     if (root_.kind != Value::Kind::table) refuse("", "is no calibration", kKnown, describe(root_));
   }
 
@@ -47,54 +46,6 @@ class CalibrationReader {
  private:
   static constexpr const char* kKnown =
       "a Kalibr camchain, an OpenCV or ROS camera_info file with camera_matrix, ORB-SLAM settings, or Ouster metadata";
-
-  [[noreturn]] void refuse(const std::string& key, const std::string& message, const std::string& expected = "",
-                           const std::string& found = "", const std::string& hint = "") const {
-    throw InputError({path_, 0, "", key.empty() ? message : "`" + key + "`: " + message, expected, found, hint});
-  }
-
-  static std::string keys_of(const Value& table) {
-    std::string keys;
-    for (const auto& [key, value] : table.fields) keys += (keys.empty() ? "" : ", ") + key;
-    return keys.substr(0, 200);
-  }
-
-  static const Value* find(const Value& table, KeyNames names) {
-    for (const char* name : names)
-      if (const Value* found = table.find(name)) return found;
-    return nullptr;
-  }
-
-  double number(const Value* value, const std::string& key) const {
-    if (!value || !value->is_number()) refuse(key, "no number", "a number", value ? describe(*value) : "nothing");
-    return value->number;
-  }
-
-  std::string text(const Value* value, const std::string& key) const {
-    if (!value || value->kind != Value::Kind::text) refuse(key, "no text", "a name", value ? describe(*value) : "nothing");
-    return value->text;
-  }
-
-  // A list, a matrix of OpenCV or ROS (`data`), or a list of lists; rows one after another.
-  std::vector<double> numbers(const Value* value, const std::string& key) const {
-    if (!value || value->kind != Value::Kind::table) refuse(key, "no numbers", "a list", value ? describe(*value) : "nothing");
-    if (const Value* data = value->find("data")) return numbers(data, key + ".data");
-    std::vector<double> list;
-    for (const Value& item : value->items) {
-      if (item.kind == Value::Kind::table) {
-        for (const double v : numbers(&item, key)) list.push_back(v);
-      } else {
-        list.push_back(number(&item, key));
-      }
-    }
-    return list;
-  }
-
-  std::vector<double> numbers(const Value* value, const std::string& key, std::size_t count) const {
-    const std::vector<double> list = numbers(value, key);
-    if (list.size() != count) refuse(key, "another number of values", std::to_string(count), std::to_string(list.size()));
-    return list;
-  }
 
   void check_lens(const CalibratedLens& lens, const std::string& key) const {
     const bool whole = lens.width == std::floor(lens.width) && lens.height == std::floor(lens.height);
@@ -217,52 +168,11 @@ class CalibrationReader {
     return find(root_, {"prod_line", "beam_altitude_angles", "beam_intrinsics"}) || (sensor && sensor->find("prod_line"));
   }
 
-  // In old files at the top, in new ones in a section.
-  const Value* ouster(const char* section, const char* key) const {
-    if (const Value* found = root_.find(key)) return found;
-    const Value* in = root_.find(section);
-    return in ? in->find(key) : nullptr;
-  }
-
   void read_ouster() {
     result_.format = "Ouster metadata";
-    const std::string product = text(ouster("sensor_info", "prod_line"), "prod_line");  // "OS-1-64"
-    const std::string mode = text(ouster("config_params", "lidar_mode"), "lidar_mode");  // "1024x10"
-    Value lidar = Value::make_table();
-    std::string letters;
-    for (const char c : lower_case(product))
-      if (c != '-') letters += c;
-    const std::string model = letters.substr(0, 3);
-    if (model != "os0" && model != "os1" && model != "os2")
-      refuse("prod_line", "a sensor that is not simulated", "OS-0, OS-1 or OS-2", product);
-    const Value* altitudes = ouster("beam_intrinsics", "beam_altitude_angles");
-    const std::size_t last = product.rfind('-');
-    const auto in_name = last == std::string::npos ? std::nullopt : parse_number(product.substr(last + 1));
-    const std::size_t rings = altitudes ? numbers(altitudes, "beam_altitude_angles").size() : std::size_t(in_name.value_or(0));
-    if (rings != 32 && rings != 64 && rings != 128)
-      refuse("beam_altitude_angles", "a number of rings that is not simulated", "32, 64 or 128", std::to_string(rings));
-    const std::size_t x = mode.find('x');
-    const auto columns = parse_number(mode.substr(0, x)), rate = parse_number(x == std::string::npos ? "" : mode.substr(x + 1));
-    if (!columns || !rate || (*columns != 512 && *columns != 1024 && *columns != 2048) || !(*rate >= 1 && *rate <= 100))
-      refuse("lidar_mode", "a mode that is not simulated", "512x10, 512x20, 1024x10, 1024x20 or 2048x10", mode);
-    lidar.set("model", Value::make_text(model));
-    lidar.set("channels", Value::make_integer(std::int64_t(rings)));
-    lidar.set("columns", Value::make_integer(std::int64_t(*columns)));
-    lidar.set("rate_hz", Value::make_number(*rate));
-    result_.keys.set("lidar", std::move(lidar));
-    note_beams(model, altitudes);
-  }
-
-  // Rings of the model have equal distances over its whole view.
-  void note_beams(const std::string& model, const Value* altitudes) {
-    result_.notes.push_back("rings have the model's even spacing; the sensor's own azimuth offsets and lidar_to_sensor_transform are left out");
-    if (!altitudes) return;
-    const auto angles = numbers(altitudes, "beam_altitude_angles");
-    const double half = model == "os0" ? 45 : model == "os1" ? 22.5 : 11.25;
-    double worst = 0;
-    for (std::size_t i = 0; i < angles.size(); ++i)
-      worst = std::max(worst, std::abs(angles[i] - (half - 2 * half * double(i) / double(angles.size() - 1))));
-    result_.notes.push_back("beam_altitude_angles differ from it by at most " + format_number(std::round(worst * 100) / 100) + " degrees");
+    OusterMetadata metadata = read_ouster_metadata(root_, path());
+    result_.keys.set("lidar", std::move(metadata.lidar));
+    result_.notes = std::move(metadata.notes);
   }
 
   std::string orb_prefix() const {
@@ -331,7 +241,6 @@ class CalibrationReader {
     if (!identity) result_.notes.push_back("rectification_matrix and projection_matrix are left out: the camera is not rectified");
   }
 
-  std::string path_;
   Value root_;
   SensorCalibration result_{"", Value::make_table(), {}};
 };

@@ -4,47 +4,13 @@
 #include "scripting/reference/lua_base_annotations.h"
 #include "scripting/reference/lua_text.h"
 #include "scripting/reference/schema_docs.h"
+#include "scripting/reference/slot_types.h"
 #include "scripting/sandbox/lua_options.h"
 #include "scripting/sandbox/lua_sandbox.h"
 #include "scripting/scenario/scenario_schema.h"
 
 namespace rubble {
 namespace {
-
-std::string words_of(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "\"" : "|\"") + name + "\"";
-  return text;
-}
-
-struct LuaTypeOf {
-  std::string operator()(bool*) const { return "boolean"; }
-  std::string operator()(const Negated&) const { return "boolean"; }
-  std::string operator()(int*) const { return "integer"; }
-  std::string operator()(std::int64_t*) const { return "integer"; }
-  std::string operator()(std::uint64_t*) const { return "integer"; }
-  std::string operator()(double*) const { return "number"; }
-  std::string operator()(std::optional<double>*) const { return "number"; }
-  std::string operator()(std::string*) const { return "string"; }
-  std::string operator()(std::optional<std::string>*) const { return "string"; }
-  std::string operator()(const Choice& choice) const { return words_of(choice.names); }
-  std::string operator()(Vec3*) const { return "rubble.Vector"; }
-  std::string operator()(std::optional<Vec3>*) const { return "rubble.Vector"; }
-  std::string operator()(NumberPair*) const { return "rubble.Range"; }
-  std::string operator()(std::optional<NumberPair>*) const { return "rubble.Range"; }
-  std::string operator()(std::vector<std::string>*) const { return "string[]"; }
-  std::string operator()(std::vector<double>*) const { return "number[]"; }
-  std::string operator()(const StringOrList&) const { return "string|string[]"; }
-  std::string operator()(const WordOrFile& slot) const {
-    return words_of(slot.words) + "|{" + slot.key + ": string}";
-  }
-  std::string operator()(Value*) const { return "table"; }
-  std::string operator()(const TableList&) const { return "table[]"; }
-  std::string operator()(const NamedTables&) const { return "table<string, table>"; }
-  std::string operator()(const PlaceSlot&) const { return "rubble.Vector|table"; }
-  std::string operator()(TextMap*) const { return "table<string, string>"; }
-  std::string operator()(NumberMap*) const { return "table<string, number>"; }
-};
 
 // "rubble.mission" and "pile.mix[]": "rubble.mission.pile.mix".
 std::string class_name(const std::string& root, std::string path) {
@@ -73,7 +39,7 @@ std::string class_of(const Schema& schema, const std::string& pattern, const std
     std::string type;
     if (key->kind == KeyKind::value) {
       const Slot slot = key->bind(0);
-      type = std::visit(LuaTypeOf{}, slot);
+      type = slot_type(slot).lua;
       if (const auto* tables = std::get_if<TableList>(&slot)) {
         tables->resize(1);  // so that an item's defaults can be read
         inner += class_of(tables->make_item(0), "", own, own, key->doc_text);

@@ -7,6 +7,7 @@
 
 #include "scripting/packs/pack_schema.h"
 #include "scripting/reference/lua_text.h"
+#include "scripting/reference/slot_types.h"
 #include "scripting/sandbox/lua_library.h"
 #include "scripting/sandbox/lua_options.h"
 #include "scripting/sandbox/lua_sandbox.h"
@@ -59,34 +60,6 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-// The type in a word or two; a test takes every alternative through here.
-struct ShortType {
-  std::string operator()(bool*) const { return "boolean"; }
-  std::string operator()(const Negated&) const { return "boolean"; }
-  std::string operator()(int*) const { return "integer"; }
-  std::string operator()(std::int64_t*) const { return "integer"; }
-  std::string operator()(std::uint64_t*) const { return "integer"; }
-  std::string operator()(double*) const { return "number"; }
-  std::string operator()(std::optional<double>*) const { return "number"; }
-  std::string operator()(std::string*) const { return "string"; }
-  std::string operator()(std::optional<std::string>*) const { return "string"; }
-  std::string operator()(const Choice&) const { return "choice"; }
-  std::string operator()(const WordOrFile&) const { return "choice"; }
-  std::string operator()(Vec3*) const { return "vector"; }
-  std::string operator()(std::optional<Vec3>*) const { return "vector"; }
-  std::string operator()(const PlaceSlot&) const { return "vector or place"; }
-  std::string operator()(NumberPair*) const { return "pair"; }
-  std::string operator()(std::optional<NumberPair>*) const { return "pair"; }
-  std::string operator()(std::vector<std::string>*) const { return "strings"; }
-  std::string operator()(const StringOrList&) const { return "strings"; }
-  std::string operator()(std::vector<double>*) const { return "numbers"; }
-  std::string operator()(Value*) const { return "table"; }
-  std::string operator()(const TableList&) const { return "list"; }
-  std::string operator()(const NamedTables&) const { return "named tables"; }
-  std::string operator()(TextMap*) const { return "named strings"; }
-  std::string operator()(NumberMap*) const { return "named numbers"; }
-};
-
 // "1e6" instead of "1e+06".
 std::string short_number(double value) {
   std::string text = format_number(value);
@@ -117,7 +90,7 @@ std::string allowed(const Key& key) {
 
 std::string row(const Key& key, const std::string& name) {
   const std::string value = key.required ? "required" : as_code(lua_text(read_slot(key.bind(0))));
-  const std::string type = std::visit(ShortType{}, key.bind(0));
+  const std::string type = slot_type(key.bind(0)).word;
   return "|`" + name + "`|" + type + (key.unit_text.empty() ? "" : ", " + key.unit_text) + "|" +
          cell(allowed(key)) + "|" + cell(value) + "|" + cell(linked(key.doc_text)) + "|\n";
 }

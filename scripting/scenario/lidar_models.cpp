@@ -119,6 +119,14 @@ Pose LidarScenario::rig_from_lidar() const {
 
 LidarSpec LidarScenario::spec() const {
   LidarSpec s = figures(*this);
+  if (has_channels() && !beam_elevations_deg.empty()) {
+    s.elevations_deg = beam_elevations_deg;
+    s.delays_ns.assign(s.elevations_deg.size(), 0);
+    s.model = s.model.substr(0, 4) + std::to_string(s.rings());
+  }
+  if (has_channels()) s.azimuths_deg = beam_azimuths_deg;
+  s.beam_radius = beam_radius, s.beam_height = beam_height;
+  s.regular = !has_own_beams();
   s.rate_hz = rate_hz.value_or(planar() ? 40 : 10);
   s.min_range = min_range.value_or(s.min_range), s.max_range = max_range.value_or(s.max_range);
   s.range_at_10_percent = range_at_10_percent.value_or(s.range_at_10_percent);

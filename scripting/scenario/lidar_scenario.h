@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "kernel/base/math.h"
 #include "render/scene/lidar_spec.h"
@@ -22,6 +23,9 @@ struct LidarScenario {
   Vec3 rpy_deg;                           // likewise; unit: degree
   int channels = 0;                       // of os0, os1, os2: 32, 64 or 128; 0: 64
   int columns = 0;                        // of os0, os1, os2: 512, 1024 or 2048; 0: 1024
+  std::vector<double> beam_elevations_deg{};  // of each ring, rising; empty: of the model; unit: degree
+  std::vector<double> beam_azimuths_deg{};    // of each ring beside its column, from X towards Y; empty: 0; unit: degree
+  double beam_radius = 0, beam_height = 0;    // as LidarSpec's; unit: m
   std::optional<double> rate_hz{};        // scans per second; unit: Hz
   std::optional<double> min_range{}, max_range{};  // unit: m
   std::optional<double> range_at_10_percent{};     // unit: m
@@ -33,7 +37,8 @@ struct LidarScenario {
   std::optional<std::string> topic{};     // ROS; not given: see lidar_topic()
   std::optional<std::string> frame_id{};  // TF; not given: "NAME_link"
 
-  bool has_channels() const;  // whether `channels` and `columns` may be set
+  bool has_channels() const;  // whether `channels`, `columns` and keys of beams may be set
+  bool has_own_beams() const { return !beam_elevations_deg.empty() || !beam_azimuths_deg.empty() || beam_radius != 0 || beam_height != 0; }
   bool planar() const { return model == LidarModel::utm30lx; }  // ROS: LaserScan, not PointCloud2
   Pose rig_from_lidar() const;
   LidarSpec spec() const;  // with every figure

@@ -27,6 +27,21 @@ void add_figures(Schema& k, LidarScenario& l) {
       .unit("mrad");
 }
 
+// Of one unit, as its calibration has them.
+void add_beams(Schema& k, LidarScenario& l) {
+  k.value("beam_elevations_deg", l.beam_elevations_deg,
+          "`os0`, `os1`, `os2`: elevation of each ring, from the lowest, at most 128 rings. `rubble.read_calibration` reads "
+          "it and the next three from a sensor's own metadata.")
+      .between(-90, 90)
+      .unit("degree");
+  k.value("beam_azimuths_deg", l.beam_azimuths_deg,
+          "Azimuth of each ring beside the direction of its column; positive: to the left. Empty: 0.")
+      .between(-180, 180)
+      .unit("degree");
+  k.value("beam_radius", l.beam_radius, "Distance of the point that rays leave from the axis of rotation.").between(0, 1).unit("m");
+  k.value("beam_height", l.beam_height, "Height of this point above the origin of the sensor.").between(-1, 1).unit("m");
+}
+
 Schema lidar_schema(LidarScenario& l) {
   Schema k;
   k.choice("model", l.model, {"vlp16", "os0", "os1", "os2", "mid360", "utm30lx"},
@@ -40,6 +55,7 @@ Schema lidar_schema(LidarScenario& l) {
   k.value("columns", l.columns,
           "`os0`, `os1`, `os2`: firings of each ring in a scan, 512, 1024 or 2048; 0: 1024.")
       .between(0, 2048);
+  add_beams(k, l);
   add_figures(k, l);
   k.choice("returns", l.returns, {"strongest", "last", "dual"},
            "Reported echoes of a ray. `dual`: the strongest and the last; if these are the same, the two strongest.");
@@ -53,6 +69,29 @@ Schema lidar_schema(LidarScenario& l) {
 
 bool one_of(int value, const std::vector<int>& allowed) {
   return std::find(allowed.begin(), allowed.end(), value) != allowed.end();
+}
+
+void check_beams(const LidarScenario& lidar, std::vector<Diagnostic>& mistakes) {
+  const std::string at = "lidars." + lidar.name + ".";
+  const auto add = [&](const std::string& key, const std::string& message, const std::string& expected,
+                       const std::string& found) {
+    mistakes.push_back({"", 0, at + key, message, expected, found, ""});
+  };
+  if (!lidar.has_own_beams()) return;
+  const std::vector<double>& elevations = lidar.beam_elevations_deg;
+  const std::size_t rings = !elevations.empty() ? elevations.size() : lidar.channels > 0 ? std::size_t(lidar.channels) : 64;
+  if (!lidar.has_channels()) {
+    add(!elevations.empty() ? "beam_elevations_deg" : !lidar.beam_azimuths_deg.empty() ? "beam_azimuths_deg" : lidar.beam_radius != 0 ? "beam_radius" : "beam_height",
+        "only the beams of os0, os1 and os2 can be set", "no such key", "a value");
+    return;
+  }
+  if (!std::is_sorted(elevations.begin(), elevations.end()))
+    add("beam_elevations_deg", "the rings are not in order", "elevations from the lowest to the highest", "another order");
+  if (elevations.size() > 128) add("beam_elevations_deg", "too many rings", "at most 128", std::to_string(elevations.size()));
+  if (lidar.channels > 0 && std::size_t(lidar.channels) != rings)
+    add("channels", "not the number of `beam_elevations_deg`", std::to_string(rings), std::to_string(lidar.channels));
+  if (!lidar.beam_azimuths_deg.empty() && lidar.beam_azimuths_deg.size() != rings)
+    add("beam_azimuths_deg", "not one for each ring", std::to_string(rings), std::to_string(lidar.beam_azimuths_deg.size()));
 }
 
 void check_lidar(const LidarScenario& lidar, std::vector<Diagnostic>& mistakes) {
@@ -71,6 +110,7 @@ void check_lidar(const LidarScenario& lidar, std::vector<Diagnostic>& mistakes) 
   };
   check_count("channels", lidar.channels, {32, 64, 128});
   check_count("columns", lidar.columns, {512, 1024, 2048});
+  check_beams(lidar, mistakes);
   const LidarSpec spec = lidar.spec();
   if (spec.min_range >= spec.max_range)
     add("max_range", "the range is empty", "more than min_range, " + format_number(spec.min_range) + " m",

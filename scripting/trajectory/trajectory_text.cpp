@@ -17,7 +17,7 @@ using Q = PoseQuantity;
 
 constexpr const char* kLayouts =
     "a first line that names the columns (t,x,y,z,qx,qy,qz,qw), 8 numbers between blanks (TUM), 12 (KITTI), or "
-    "integer nanoseconds and 7 or more numbers between commas (EuRoC)";
+    "integer nanoseconds and 7 or more numbers between commas or semicolons (EuRoC)";
 constexpr const char* kNameThem = "name the columns in a first line, such as t,x,y,z,qx,qy,qz,qw, or by `columns`";
 
 // unit: of the stamp, s
@@ -131,7 +131,7 @@ class TrajectoryReader {
       result_.format = "TUM (stamp tx ty tz qx qy qz qw";
       return;
     }
-    if (separator == ',' && width_ >= 8) {
+    if (separator != ' ' && width_ >= 8) {
       std::vector<std::string> names{"stamp", "px", "py", "pz", "qw", "qx", "qy", "qz"};
       names.resize(width_);
       place(names);
@@ -139,7 +139,12 @@ class TrajectoryReader {
       result_.format = "EuRoC (stamp,px,py,pz,qw,qx,qy,qz";
       return;
     }
-    refuse(rows().front().line, "not a pose", kLayouts, std::to_string(width_) + " values", kNameThem);
+    refuse(rows().front().line, "not a pose", kLayouts, std::to_string(width_) + " values between " + separators(), kNameThem);
+  }
+
+  const char* separators() const {
+    const char separator = rows().front().separator;
+    return separator == ',' ? "commas" : separator == ';' ? "semicolons" : "blanks";
   }
 
   void place(const std::vector<std::string>& names) {
@@ -292,11 +297,11 @@ class TrajectoryReader {
     return kSeconds;
   }
 
-  // Between commas only EuRoC's own order is known without names, and its stamps are nanoseconds.
+  // Between commas or semicolons only EuRoC's own order is known without names, and its stamps are nanoseconds.
   void check_euroc() const {
     if (unit_.digits == kNanos.digits) return;
     refuse(rows().front().line, "the order of the columns is not known", kLayouts,
-           std::to_string(width_) + " numbers between commas with stamps in " + unit_.name, kNameThem);
+           std::to_string(width_) + " numbers between " + separators() + " with stamps in " + unit_.name, kNameThem);
   }
 
   double scaled(const TextRow& row, Q quantity) const {

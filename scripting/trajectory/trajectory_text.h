@@ -39,9 +39,9 @@ struct RecordedTrajectory {
 //   `columns`, "t,x,y,z,qx,qy,qz,qw", names those of a file that does not.
 // - TUM: stamp tx ty tz qx qy qz qw, between blanks
 // - KITTI: the first three rows of a matrix; also all four, and with a stamp before them
-// - EuRoC: stamp,px,py,pz,qw,qx,qy,qz,..., between commas, with integer stamps in ns
+// - EuRoC: stamp,px,py,pz,qw,qx,qy,qz,..., between commas or semicolons, with integer stamps in ns
 // Where the unit of stamps is not named, it follows from their size (s, ms, us or ns since 1970) or, of
-// integers that begin elsewhere, from their steps. Rows of numbers between commas that are no EuRoC file
+// integers that begin elsewhere, from their steps. Other rows of numbers between commas or semicolons
 // have no known order and are refused. Quaternions are normalised.
 //
 // Throws InputError with `path` and line: columns that are missing, ambiguous or without a unit, a

@@ -235,6 +235,7 @@ const std::map<std::string, Prefixes> kDoors{
     {"Imf", {"io/image/exr_file.cpp"}},
     {"png.h", {"io/image/image_file.cpp", "io/image/picture_decoder.cpp", "io/image/png_pixels.cpp"}},
     {"tiff", {"io/image/tiff_data.cpp"}},
+    {"webp/", {"io/image/data_picture.cpp"}},
     {"yaml-cpp/", {"scripting/files/yaml_value.cpp"}},
     {"jpeglib.h", {"io/image/jpeg_file.cpp", "io/image/picture_decoder.cpp"}},
     {"zlib.h", {"io/base/gzip.cpp", "io/base/zip_file.cpp", "io/ros/mcap_format.h"}},

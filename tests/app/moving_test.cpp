@@ -192,5 +192,17 @@ TEST(RecordSettling, SaysWhatIsWrong) {
          "m.lua:2: record_settling.from: the pile rests by then: expected less than ");
 }
 
+TEST(RecordSettling, OfAPileThatRestsFromTheStartIsNothing) {
+  const ScratchFolder scratch;
+  write_file(scratch / "m.lua", R"(return rubble.mission { record_settling = { on = true, rate_hz = 5 },
+  pile = { layers = 0, placed = { { box = { 1, 1, 0.5 }, position = { 0, 0, 0.25 }, fixed = true } } },
+  camera = { width = 32, height = 24 }, outputs = { rawlog = false },
+  trajectory = { rate_hz = 10, waypoints = { { position = { -3, 0, 1 }, look_at = { 0, 0, 0 } } } } })");
+  const Outcome run = run_rubble("run " + (scratch / "m.lua") + " --out " + (scratch / "a"));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("warning: record_settling: the pile rests from the start"), std::string::npos) << run.err;
+  EXPECT_EQ(read_poses(scratch / "a/groundtruth.txt").size(), 1u);
+}
+
 }  // namespace moving_test
 }  // namespace rubble::testing

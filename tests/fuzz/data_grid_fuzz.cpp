@@ -5,7 +5,7 @@
 
 using namespace rubble;
 
-// Pictures of every kind that is read (PNG, JPEG, TIFF, PGM), and ESRI grids; what is kept is read again.
+// Pictures of every kind that is read (PNG, JPEG, TIFF, WebP, BMP, PGM ...), and ESRI grids; what is kept is read again.
 void fuzz_one(std::string_view bytes) {
   std::string kept;
   try {

@@ -4,6 +4,7 @@
 Scripts and packs are those that come with Rubble; recordings and saved states are of a run of 16 x 16
 pixels, made by PROGRAM. OUT gets a folder for each target and is made anew.
 """
+import base64
 import io
 import os
 import shutil
@@ -210,6 +211,10 @@ def main():
     corpus.add("data_grid", "P2\n2 2\n255\n0 1 2 3\n")
     corpus.add("data_grid", "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 30\nNODATA_value -9999\n1 -9999\n")
     corpus.add("data_grid", geo_tiff())
+    corpus.add("data_grid", b"Pf\n1 1\n-1\n\0\0\x80\x3f")
+    corpus.add("data_grid", b"BM" + struct.pack("<4I2i2H6I", 0, 0, 62, 40, 3, 1, 1, 4, 2, 0, 0, 0, 2, 0) +
+               b"\x0a\x0a\x0a\0\xc8\xc8\xc8\0" + b"\3\x10\0\1")
+    corpus.add("data_grid", base64.b64decode("UklGRhoAAABXRUJQVlA4TA0AAAAvAAAAEAcQERGIiP4HAA=="))  # WebP of one pixel
     for trajectory in ("1403636579763555584,0,0,0,1,0,0,0\n", "#t [ns],x,y,z,qx,qy,qz,qw\n0,1,2,3,0,0,0,1\n",
                        "1 0 0 0 0 1 0 0 0 0 1 0\n", "t;x;y;z;yaw_deg\n0;1;2;3;90\n"):
         corpus.add("trajectory", trajectory)

@@ -54,6 +54,63 @@ TEST(DataPicture, PgmOfBothKindsAndSizes) {
   EXPECT_NE(refusal_of("P2 2 1 255\n1 256\n").find("not a whole image"), std::string::npos);
 }
 
+TEST(DataPicture, OtherNetpbmFormats) {
+  const DataPicture ppm = decode_data_picture("P3 2 1 255 90 90 90 0 255 0\n");
+  EXPECT_TRUE(ppm.colour);
+  EXPECT_EQ(ppm.values[0], 90);
+  EXPECT_NEAR(ppm.values[1], 0.7152 * 255, 1e-3);
+  const std::vector<float> bits{1, 0, 0};
+  EXPECT_EQ(decode_data_picture("P1\n3 1\n011").values, bits) << "1 is black";
+  EXPECT_EQ(decode_data_picture("P4 3 1 \x60").values, bits);
+  EXPECT_EQ(decode_data_picture("P4 3 1 \x60").white, 1);
+  // Rows from the bottom; both orders of bytes.
+  const DataPicture big = decode_data_picture(std::string("Pf\n1 2\n1.0\n\x3f\x80\0\0\x40\0\0\0", 19));
+  EXPECT_EQ(big.values, (std::vector<float>{2, 1}));
+  EXPECT_EQ(big.white, 0) << "numbers, not grey levels";
+  EXPECT_EQ(decode_data_picture(std::string("Pf\n1 1\n-1\n\0\0\x80\x3f", 14)).values, (std::vector<float>{1}));
+  EXPECT_NE(refusal_of("Pf\n1 1\n-1\nab").find("is a damaged PFM: the file ends too early"), std::string::npos);
+}
+
+// head: from the number of bits on; after the header of 40 bytes come palette or masks, and the pixels.
+std::string bmp(int width, int height, int bits, int compression, const std::string& palette, const std::string& pixels) {
+  const auto number = [](int value, int bytes) {
+    std::string out;
+    for (int k = 0; k < bytes; ++k) out += char(unsigned(value) >> (8 * k));
+    return out;
+  };
+  return "BM" + number(0, 4) + number(0, 4) + number(54 + int(palette.size()), 4) + number(40, 4) + number(width, 4) + number(height, 4) +
+         number(1, 2) + number(bits, 2) + number(compression, 4) + std::string(20, '\0') + palette + pixels;
+}
+
+TEST(DataPicture, BmpOfEveryNumberOfBits) {
+  const std::string two("\x0a\x0a\x0a\0\xc8\xc8\xc8\0", 8);  // grey of 10 and 200
+  const std::vector<float> expected{200, 10, 200};
+  const auto values = [&](int bits, int compression, const std::string& palette, const std::string& pixels) {
+    return decode_data_picture(bmp(3, 1, bits, compression, palette, pixels)).values;
+  };
+  EXPECT_EQ(values(1, 0, two, std::string("\xa0\0\0\0", 4)), expected);
+  EXPECT_EQ(values(4, 0, two, std::string("\x10\x10\0\0", 4)), expected);
+  EXPECT_EQ(values(8, 0, two, std::string("\1\0\1\0", 4)), expected);
+  EXPECT_EQ(values(8, 1, two, std::string("\0\3\1\0\1\0\0\1", 8)), expected) << "absolute";
+  EXPECT_EQ(values(8, 1, two, std::string("\1\1\1\0\1\1\0\0\0\1", 10)), expected) << "runs";
+  EXPECT_EQ(values(4, 2, two, std::string("\3\x10\0\1", 4)), expected) << "a run of two colours";
+  EXPECT_EQ(values(24, 0, "", "\xc8\xc8\xc8\x0a\x0a\x0a\xc8\xc8\xc8" + std::string(3, '\0')), expected);
+  EXPECT_EQ(values(32, 0, "", std::string("\xc8\xc8\xc8\0\x0a\x0a\x0a\0\xc8\xc8\xc8\0", 12)), expected);
+  const std::string masks("\0\xf8\0\0\xe0\7\0\0\x1f\0\0\0", 12);  // 5, 6 and 5 bits
+  EXPECT_EQ(values(16, 3, masks, std::string("\xff\xff\0\0\0\0\0\0", 8)), (std::vector<float>{255, 0, 0}));
+}
+
+TEST(DataPicture, BmpBeginsAtTheBottomUnlessItsHeightIsNegative) {
+  const std::string pixels("\1\1\1\0\2\2\2\0", 8);
+  EXPECT_EQ(decode_data_picture(bmp(1, 2, 24, 0, "", pixels)).values, (std::vector<float>{2, 1}));
+  EXPECT_EQ(decode_data_picture(bmp(1, -2, 24, 0, "", pixels)).values, (std::vector<float>{1, 2}));
+  EXPECT_EQ(decode_data_picture(bmp(1, 2, 24, 0, "", pixels)).white, 255);
+  EXPECT_NE(refusal_of(bmp(1, 2, 24, 0, "", pixels.substr(1))).find("is a damaged BMP: the file ends too early"), std::string::npos);
+  EXPECT_EQ(refusal_of(bmp(16000, 16000, 8, 1, "", "")), "has more than 64 million pixels");
+  EXPECT_NE(refusal_of(bmp(1, 1, 24, 4, "", pixels)).find("JPEG inside"), std::string::npos);
+  EXPECT_NE(refusal_of(bmp(2, 1, 8, 1, "", std::string("\3\1\0\1", 4))).find("not a whole image"), std::string::npos);
+}
+
 TEST(DataPicture, TiffOfIntegersAndRealNumbers) {
   EXPECT_EQ(decode_data_picture(TiffBytes(2, 1, 1, std::vector<std::uint16_t>{7, 65535}).bytes()).white, 65535);
   const DataPicture sign = decode_data_picture(TiffBytes(2, 1, 2, std::vector<std::int16_t>{-5, 900}).bytes());
@@ -99,9 +156,12 @@ TEST(DataPicture, OpenExrOfOneChannelOrColours) {
 }
 
 TEST(DataPicture, WhatIsNotReadIsNamed) {
-  EXPECT_EQ(refusal_of("GIF89a"), "is a GIF picture; PNG, JPEG, TIFF, PGM and OpenEXR are read");
-  EXPECT_EQ(refusal_of(std::string("RIFF\0\0\0\0WEBPVP8 ", 16)), "is a WebP picture; PNG, JPEG, TIFF, PGM and OpenEXR are read");
-  EXPECT_EQ(refusal_of("heights"), "is no picture; PNG, JPEG, TIFF, PGM and OpenEXR are read");
+  const std::string read = "PNG, JPEG, TIFF, OpenEXR, WebP, BMP, PGM, PPM, PBM and PFM are read";
+  EXPECT_EQ(refusal_of("GIF89a"), "is a GIF picture; " + read + ": convert it");
+  EXPECT_EQ(refusal_of("P7\nWIDTH 1\n"), "is a PAM picture; " + read + ": convert it");
+  EXPECT_EQ(refusal_of("heights"), "is no picture; " + read);
+  EXPECT_EQ(refusal_of(std::string("RIFF\0\0\0\0WEBPVP8 ", 16)), "is a damaged WebP: no good header");
+  EXPECT_EQ(picture_kind("P1 = 3"), "") << "Lua";
   EXPECT_EQ(picture_kind("P2P networks are text"), "");
   EXPECT_EQ(picture_kind("BMW"), "");
   const std::string whole = TiffBytes(2, 2, 3, std::vector<float>{1, 2, 3, 4}).bytes();

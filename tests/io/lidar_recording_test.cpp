@@ -66,6 +66,16 @@ TEST(LidarRawlog, MrptReadsRangesPointsAndPlaces) {
   EXPECT_NEAR(rotating->sensorPose.z(), 0.3, 1e-12);
   EXPECT_NEAR(rotating->sweepDuration, 0.07, 1e-9);
 
+  // Beams of its own have no place in a matrix.
+  Recording own = three_lidars();
+  own.lidars[0].spec.regular = false;
+  const auto other = make_rawlog_recorder(folder / "own.rawlog", {0, 0.001, own});
+  other->write_lidar(two_echoes(0));
+  other->finish();
+  mrpt::io::CFileGZInputStream own_file(folder / "own.rawlog");
+  auto own_archive = mrpt::serialization::archiveFrom(own_file);
+  EXPECT_TRUE(std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(own_archive.ReadObject()));
+
   const auto points = std::dynamic_pointer_cast<mrpt::maps::CPointsMapXYZI>(cloud->pointcloud);
   ASSERT_TRUE(points);
   ASSERT_EQ(points->size(), 2u);

@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "io/datasets/frames_recorder.h"
+#include "io/image/data_picture.h"
 #include "tests/io/support.h"
 
 namespace rubble {
@@ -50,6 +51,31 @@ TEST(OpenCv, ReadsTheNumbersOfEveryExr) {
   for (const std::uint32_t id : frame.get<std::uint32_t>("instance")) pieces.push_back(float(std::int32_t(id)));
   expect_same(read(at + "instance/000000.exr"), pieces, 1);
   EXPECT_EQ(std::count(pieces.begin(), pieces.end(), -1.0f), std::count(frame.get<std::uint32_t>("instance").begin(), frame.get<std::uint32_t>("instance").end(), kGroundInstance));
+}
+
+// Files that OpenCV writes, by our decoders.
+TEST(OpenCv, WritesPicturesThatAreReadAsData) {
+  const cv::Mat grey = (cv::Mat_<std::uint8_t>(2, 3) << 0, 50, 100, 150, 200, 255);
+  const cv::Mat colour(1, 1, CV_8UC3, cv::Scalar(0, 255, 0));
+  const auto written = [](const char* kind, const cv::Mat& image) {
+    std::vector<std::uint8_t> file;
+    cv::imencode(kind, image, file, {cv::IMWRITE_WEBP_QUALITY, 101});  // 101: without loss
+    return decode_data_picture(std::string_view(reinterpret_cast<const char*>(file.data()), file.size()));
+  };
+  for (const char* kind : {".bmp", ".webp", ".pgm", ".png", ".tif"}) {
+    const DataPicture data = written(kind, grey);
+    EXPECT_EQ(data.width, 3) << kind;
+    EXPECT_EQ(data.values, (std::vector<float>{0, 50, 100, 150, 200, 255})) << kind;
+    EXPECT_EQ(data.white, 255) << kind;
+    EXPECT_FALSE(data.colour) << kind;
+  }
+  for (const char* kind : {".bmp", ".webp", ".ppm"}) {
+    const DataPicture data = written(kind, colour);
+    EXPECT_NEAR(data.values[0], 0.7152 * 255, 1e-3) << kind;
+    EXPECT_TRUE(data.colour) << kind;
+  }
+  const cv::Mat real = (cv::Mat_<float>(2, 1) << -2.5f, 1234.5f);
+  EXPECT_EQ(written(".pfm", real).values, (std::vector<float>{-2.5f, 1234.5f}));
 }
 
 }  // namespace opencv_test

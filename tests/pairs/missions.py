@@ -163,8 +163,8 @@ def add_robots(mission, special, row):
     if not robots:
         return robots
     for robot in robots:
-        if row["building"] == "furnished" and row["cause"] in ("shake", "accelerogram"):
-            robot["position"] = [-7.4] + robot["position"][1:]  # its beams come as far as 6 m
+        if row["building"] == "furnished":
+            robot["position"] = [-7.4] + robot["position"][1:]  # what falls off it comes as far as 6 m
         kind = robot.get("model") or robot["name"]
         drive, told = COMMANDS[kind]
         control = special.get("@control")

@@ -10,6 +10,7 @@
 
 #include "kernel/base/portable_math.h"
 #include "render/materials/surface_appearance.h"
+#include "scripting/mission.h"
 #include "scripting/scenario/lidar_scenario.h"
 #include "tests/render/test_scene.h"
 
@@ -302,6 +303,46 @@ TEST(LidarPattern, OfAVlp16FiresAsItsManualSays) {
   EXPECT_EQ(rays[16].offset_ns, 55'296);
   const auto azimuth = [](const PatternRay& r) { return std::atan2(r.direction.y, r.direction.x); };
   EXPECT_NEAR(azimuth(rays[16 * 10]) - azimuth(rays[16 * 11]), 0.1990656 * kPi / 180, 1e-6);  // clockwise
+}
+
+// By Ouster's formula: n * (cos e, sin e) + r * direction(e - azimuth_i, altitude_i), turned by 180 degrees and lifted.
+TEST(LidarPattern, OfAnOustersMetadataHasItsOwnBeams) {
+  const double altitudes[] = {14, 1.5, -17.25}, azimuths[] = {3.5, -1.25, 0.5}, radius = 0.0158, height = 0.0362;
+  MissionOptions options;
+  options.included.emplace();
+  (*options.included)["os.json"] =
+      R"({"prod_line":"OS-1","lidar_mode":"512x10","beam_altitude_angles":[14,1.5,-17.25],"beam_azimuth_angles":[3.5,-1.25,0.5],
+          "lidar_origin_to_beam_origin_mm":15.8,"lidar_to_sensor_transform":[-1,0,0,0,0,-1,0,0,0,0,1,36.2,0,0,0,1]})";
+  const Mission mission = load_mission_text(
+      "return rubble.mission { lidars = { top = rubble.read_calibration('os.json').lidar } }", "m.lua", options);
+  LidarScenario lidar = mission.scenario.lidars.at(0);
+  lidar.noise = false, lidar.range_step = 0, lidar.divergence_mrad = 0, lidar.min_range = 0.01, lidar.range_at_10_percent = 1000;
+  const LidarScan scan = scan_of(lidar.spec(), place_boxes({{kRoom, {}}}), standing());
+  ASSERT_EQ(scan.points.size(), 3u * 512);
+  for (const LidarPoint& p : scan.points) {
+    const std::size_t row = 2 - p.ring;
+    const double encoder = 2 * kPi * (1 - p.column / 512.0), azimuth = encoder - azimuths[row] * kPi / 180, altitude = altitudes[row] * kPi / 180;
+    const Vec3 direction(-std::cos(azimuth) * std::cos(altitude), -std::sin(azimuth) * std::cos(altitude), std::sin(altitude));
+    const Vec3 origin(-radius * std::cos(encoder), -radius * std::sin(encoder), height);
+    ASSERT_LT(norm(origin + direction * wall_distance(origin, direction, kRoom) - place_of(p)), 1e-5) << p.ring << " " << p.column;
+  }
+  EXPECT_FALSE(lidar.spec().regular);
+}
+
+TEST(LidarPattern, OfBeamsThatCannotBeIsRefused) {
+  const auto mistake = [](const std::string& keys) {
+    try {
+      load_mission_text("return rubble.mission { lidars = { top = { " + keys + " } } }", "m.lua");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(mistake("model = 'os1', beam_elevations_deg = { -1, 2 }, beam_azimuths_deg = { 3, 4 }"), "none");
+  EXPECT_NE(mistake("model = 'os1', beam_elevations_deg = { 2, -1 }").find("the rings are not in order"), std::string::npos);
+  EXPECT_NE(mistake("model = 'os1', beam_azimuths_deg = { 3, 4 }").find("not one for each ring: expected 64, found 2"), std::string::npos);
+  EXPECT_NE(mistake("model = 'os1', channels = 32, beam_elevations_deg = { -1, 2 }").find("channels"), std::string::npos);
+  EXPECT_NE(mistake("model = 'vlp16', beam_radius = 0.1").find("only the beams of os0, os1 and os2"), std::string::npos);
 }
 
 TEST(LidarPattern, OfARosetteFillsTheViewWithTime) {

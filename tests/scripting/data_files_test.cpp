@@ -91,7 +91,7 @@ TEST_F(DataFiles, WhatAnElevationModelLacksIsSaid) {
   EXPECT_NE(terrain_error("'degrees.tif'").find("degrees: give `length`"), std::string::npos);
   EXPECT_EQ(terrain("'degrees.tif', { length = 30 }").scenario.pile.terrain.spacing, 30);
   write("map.gif", "GIF89a");
-  EXPECT_NE(terrain_error("'map.gif'").find("is a GIF picture; PNG, JPEG, TIFF, PGM and OpenEXR are read"), std::string::npos);
+  EXPECT_NE(terrain_error("'map.gif'").find("is a GIF picture; PNG, JPEG, TIFF, OpenEXR, WebP, BMP, PGM, PPM, PBM and PFM are read: convert it"), std::string::npos);
   write("m.tif", TiffBytes(2, 2, 3, std::vector<float>{1, 2, 3, 4}).bytes());
   EXPECT_NE(error_of([&] { load("pile = rubble.include('m.tif')"); }).find("but a picture: rubble.read_image reads it"), std::string::npos);
 }
@@ -234,12 +234,65 @@ TEST_F(DataFiles, CalibrationsBecomeCameras) {
   EXPECT_EQ(l.lidars[0].channels, 32);
 }
 
+// Of three rings, so that no model has them.
+TEST(Calibrations, OfAnOusterHaveItsOwnBeams) {
+  const char* const old = R"({"prod_line":"OS-1","lidar_mode":"512x20","beam_altitude_angles":[16.5,0.25,-15.75],
+    "beam_azimuth_angles":[3.25,0,-3.125],"lidar_origin_to_beam_origin_mm":12.163,
+    "lidar_to_sensor_transform":[-1,0,0,0,0,-1,0,0,0,0,1,36.18,0,0,0,1],"imu_to_sensor_transform":[1,0,0,6,0,1,0,-11,0,0,1,7,0,0,0,1]})";
+  const char* const sections = R"({"sensor_info":{"prod_line":"OS-1"},"config_params":{"lidar_mode":"512x20",
+    "azimuth_window":[0,180000],"min_range_threshold_cm":50},"lidar_data_format":{"udp_profile_lidar":"RNG19_RFL8_SIG16_NIR16_DUAL"},
+    "beam_intrinsics":{"beam_altitude_angles":[16.5,0.25,-15.75],"beam_azimuth_angles":[3.25,0,-3.125],
+    "beam_to_lidar_transform":[1,0,0,12.163,0,1,0,0,0,0,1,0,0,0,0,1]},
+    "lidar_intrinsics":{"lidar_to_sensor_transform":[-1,0,0,0,0,-1,0,0,0,0,1,36.18,0,0,0,1]}})";
+  for (const char* text : {old, sections}) {
+    const SensorCalibration read = parse_calibration(text, "os.json");
+    const Value& lidar = *read.keys.find("lidar");
+    const auto list = [&](const char* key) {
+      std::vector<double> out;
+      for (const Value& item : lidar.find(key)->items) out.push_back(item.number);
+      return out;
+    };
+    EXPECT_EQ(list("beam_elevations_deg"), (std::vector<double>{-15.75, 0.25, 16.5})) << "from the lowest";
+    EXPECT_EQ(list("beam_azimuths_deg"), (std::vector<double>{3.125, 0, -3.25})) << "to the left, Ouster's to the right";
+    EXPECT_NEAR(lidar.find("beam_radius")->number, 0.012163, 1e-12);
+    EXPECT_NEAR(lidar.find("beam_height")->number, 0.03618, 1e-12);
+    EXPECT_EQ(lidar.find("channels"), nullptr);
+    EXPECT_EQ(bool(lidar.find("returns")), text == sections);
+    EXPECT_EQ(bool(lidar.find("min_range")), text == sections);
+    ASSERT_EQ(read.notes.size(), 1u);
+    EXPECT_EQ(read.notes[0].substr(0, read.notes[0].find(' ')), text == old ? "imu_to_sensor_transform" : "azimuth_window");
+  }
+}
+
+TEST(Calibrations, OfAnOusterNameWhatTheyLackOrIsLeftOut) {
+  const auto notes = [](const std::string& keys) {
+    std::string all;
+    for (const std::string& note : parse_calibration("prod_line: OS-0-32\nlidar_mode: 1024x10\n" + keys, "os").notes) all += note + "\n";
+    return all;
+  };
+  const std::string none = notes("");
+  EXPECT_NE(none.find("beam_altitude_angles are not in the file"), std::string::npos);
+  EXPECT_NE(none.find("lidar_origin_to_beam_origin_mm is not in the file"), std::string::npos);
+  const std::string turned = notes("lidar_to_sensor_transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 36, 0, 0, 0, 1]\nsignal_multiplier: 2\n");
+  EXPECT_NE(turned.find("lidar_to_sensor_transform is left out: expected 180 degrees"), std::string::npos);
+  EXPECT_NE(turned.find("signal_multiplier is left out"), std::string::npos);
+  // 32 of 64 rows have a laser.
+  std::string rows;
+  for (int i = 0; i < 64; ++i) rows += (i ? ", " : "") + std::string(i % 2 ? "0" : std::to_string(20.5 - i / 2));
+  const Value lidar = *parse_calibration("prod_line: OS-1-32\nlidar_mode: 1024x10\nbeam_altitude_angles: [" + rows + "]\n", "os").keys.find("lidar");
+  ASSERT_EQ(lidar.find("beam_elevations_deg")->items.size(), 32u);
+  EXPECT_EQ(lidar.find("beam_elevations_deg")->items[0].number, -10.5);
+}
+
 TEST(Calibrations, WhatIsNotSimulatedIsNamed) {
   const auto error = [](const std::string& text) { return error_of([&] { parse_calibration(text, "c"); }); };
   EXPECT_NE(error("cam0:\n  camera_model: omni\n  intrinsics: [1, 2, 3, 4, 5]\n").find("`cam0.camera_model`: a model of cameras that is not simulated"), std::string::npos);
   EXPECT_NE(error("width: 4\nheight: 3\nK: [1,0,1,0,1,1,0,0,1]\nD: [1,1,1,1,1,1,1,1]\n").find("rational model"), std::string::npos);
   EXPECT_NE(error("width: 4\nheight: 3\nK: [1,0,1,0,1,1]\n").find("`camera_matrix`: another number of values: expected 9, found 6"), std::string::npos);
-  EXPECT_NE(error("prod_line: OS-1-16\nlidar_mode: 1024x10\n").find("a number of rings that is not simulated"), std::string::npos);
+  EXPECT_NE(error("prod_line: OS-1-16\nlidar_mode: 1024x10\n").find("`beam_altitude_angles`: nothing tells the elevations"), std::string::npos);
+  EXPECT_NE(error("prod_line: OS-1-32\nlidar_mode: 1024x10\nbeam_altitude_angles: [1, 2]\n").find("another number of rings than the sensor has: expected 32, found 2"), std::string::npos);
+  EXPECT_NE(error("prod_line: OS-DOME-128\nlidar_mode: 1024x10\n").find("a sensor that is not simulated"), std::string::npos);
+  EXPECT_NE(error("prod_line: OS-1\nlidar_mode: 1024x10\nbeam_altitude_angles: [1, 2]\nbeam_azimuth_angles: [1]\n").find("`beam_azimuth_angles`: another number of values: expected 2, found 1"), std::string::npos);
   EXPECT_NE(error("a: 1\n").find("is no calibration"), std::string::npos);
   EXPECT_NE(error("a: [1\nb: }").find("c:2: is neither YAML nor JSON"), std::string::npos);
   EXPECT_NE(error(std::string(1000, '[')).find("nested too deeply"), std::string::npos);

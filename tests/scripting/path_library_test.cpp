@@ -231,7 +231,7 @@ TEST_F(PathFiles, ADensityImageIsReadTopDown) {
   EXPECT_NE(error_of([&] { load("pile = { spawn_density = rubble.density.image('bad.png') }"); }).find("\"bad.png\" is a damaged PNG"),
             std::string::npos);
   write("no.png", "P7");
-  EXPECT_NE(error_of([&] { load("pile = { spawn_density = rubble.density.image('no.png') }"); }).find("\"no.png\" is no picture; PNG, JPEG, TIFF, PGM and OpenEXR are read"),
+  EXPECT_NE(error_of([&] { load("pile = { spawn_density = rubble.density.image('no.png') }"); }).find("\"no.png\" is no picture; PNG, JPEG, TIFF, OpenEXR, WebP, BMP, PGM, PPM, PBM and PFM are read"),
             std::string::npos);
 }
 

@@ -95,6 +95,10 @@ TEST(TrajectoryText, EurocWithoutNamesIsKnownByItsNanoseconds) {
   EXPECT_EQ(track.format.substr(0, 5), "EuRoC");
   EXPECT_TRUE(same(track.poses[0].world_from_body.rotation, kTurn));
   EXPECT_NE(refusal(line_of("1700000000.1", "xyzw", ",")).find("a:1: the order of the columns is not known"), std::string::npos);
+  EXPECT_NE(refusal("1700000000.1;1;2;3;0;0;0;1\n").find("found 8 numbers between semicolons with stamps in s"), std::string::npos);
+  EXPECT_NE(refusal("1;2;3;4;5\n").find("found 5 values between semicolons"), std::string::npos);
+  EXPECT_EQ(parse_trajectory("1.5;1;2;3;0;0;0;1\n", "a", "t,x,y,z,qx,qy,qz,qw").poses[0].world_from_body.translation, Vec3(1, 2, 3));
+  EXPECT_EQ(read("1403636579763555584;1;2;3;1;0;0;0\n").format, "EuRoC (stamp,px,py,pz,qw,qx,qy,qz; stamps in ns)");
   EXPECT_TRUE(same(read(line_of("1700000000.1", "xyzw", ","), "t,x,y,z,qx,qy,qz,qw").poses[0].world_from_body.rotation, kTurn));
 }
 

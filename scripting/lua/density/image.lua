@@ -1,5 +1,5 @@
--- rubble.density.image(file): a density from a picture of the script's folder (PNG, JPEG, PGM, TIFF). White
--- pixels get the most pieces, black pixels none. The upper edge of the picture is at +Y.
+-- rubble.density.image(file): a density from a picture of the script's folder. White pixels get the most
+-- pieces, black pixels none. The upper edge of the picture is at +Y.
 return function(file)
   if type(file) ~= "string" then error("rubble.density.image takes the name of a picture", 2) end
   local image = rubble.read_image(file)

@@ -1,7 +1,6 @@
 -- rubble.terrain.image(file, options): a picture or an elevation model of the script's folder as heights. Its
--- upper edge is at +Y. Of grey levels (PNG, JPEG, PGM, TIFF of 8 or 16 bits) black is 0 and white is
--- `amplitude`. Heights in metres (GeoTIFF, TIFF of real numbers, ESRI ASCII grid) keep their scale; the lowest
--- is at z = 0.
+-- upper edge is at +Y. Of grey levels black is 0 and white is `amplitude`. Heights in metres (GeoTIFF, TIFF of real
+-- numbers, ESRI ASCII grid) keep their scale; the lowest is at z = 0.
 local name = "rubble.terrain.image"
 
 -- The lowest and the highest height, and how many points have none.

@@ -1,0 +1,18 @@
+// The types of a key's value, by the words of the documents and of Lua's annotations.
+#pragma once
+
+#include <string>
+
+#include "scripting/schema/schema.h"
+
+namespace rubble {
+
+struct SlotType {
+  std::string word;  // of docs/reference/missions.md: "integer"
+  std::string lua;   // of the annotations: "number[]"
+};
+
+// A new alternative of Slot without a type does not compile.
+SlotType slot_type(const Slot& slot);
+
+}  // namespace rubble

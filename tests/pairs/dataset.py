@@ -204,4 +204,5 @@ class Dataset:
         count = len(camera.poses[0])
         if self.row.get("record_settling", "off") == "off":
             return list(range(count))
-        return list(range(max(0, count - 2), count))
+        rest = int(self.scenario["start_ns"]) + int(self.manifest["pile"]["simulated_s"] * 1e9) - 10**6
+        return [i for i in range(count) if int(camera.poses[0][i]) >= rest]

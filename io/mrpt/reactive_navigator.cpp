@@ -4,11 +4,13 @@
 #include <mrpt/core/Clock.h>
 #include <mrpt/kinematics/CVehicleVelCmd_DiffDriven.h>
 #include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/nav/holonomic/CHolonomicFullEval.h>
 #include <mrpt/nav/reactive/CReactiveNavigationSystem3D.h>
 #include <mrpt/nav/reactive/CRobot2NavInterface.h>
 
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
@@ -212,8 +214,12 @@ mrpt::config::CConfigFileMemory make_config(const NavigatorOptions& o) {
   config.write(base, "evaluate_clearance", false);
   // Directions are judged by how far they are free, how near their sector is to the goal's, how near the goal they end,
   // and whether they are those of before.
-  config.write(evaluation, "factorWeights", "[0.5, 0.3, 1, 0.1, 0, 0, 0]");
-  config.write(evaluation, "factorNormalizeOrNot", "[0, 0, 0, 0, 0, 0, 0]");
+  // MRPT 2.5 has seven factors and 2.14 eight: it wants a number for each.
+  std::string weights = "[0.5, 0.3, 1, 0.1", as_they_are = "[0, 0, 0, 0";
+  for (std::size_t i = 4; i < mrpt::nav::CHolonomicFullEval::TOptions().factorWeights.size(); ++i)
+    weights += ", 0", as_they_are += ", 0";
+  config.write(evaluation, "factorWeights", weights + "]");
+  config.write(evaluation, "factorNormalizeOrNot", as_they_are + "]");
   config.write(evaluation, "TOO_CLOSE_OBSTACLE", kTooClose / o.horizon);
   config.write(evaluation, "OBSTACLE_SLOW_DOWN_DISTANCE", kSlowDown / o.horizon);
   config.write(evaluation, "TARGET_SLOW_APPROACHING_DISTANCE", kSlowDown);

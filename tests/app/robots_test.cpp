@@ -199,7 +199,7 @@ TEST_F(CarriedSensors, TheInertialUnitIntegratedFollowsTheTruePose) {
 
 TEST_F(CarriedSensors, OdometryIsKeptBesideTheTruth) {
   const Rows rows = read_rows(file("robots/tank_odometry.csv"));
-  ASSERT_EQ(rows.size(), 360u);  // 6 s at 60 Hz
+  ASSERT_EQ(rows.size(), 361u);  // 6 s at 60 Hz
   EXPECT_NEAR(rows[60][4], 0.4, 1e-9) << "by the belts";
   EXPECT_LT(rows[60][6], 0.41) << "the truth";
   EXPECT_GT(rows[60][6], 0.3);

@@ -75,7 +75,7 @@ def resume(tools, data):
     process = subprocess.Popen([tools.program, "run", tools.mission, "--out", out, "--quiet", "--checkpoint-every", "0"],
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     # As soon as its mission is kept, which is when it can be continued; a bit later each time.
-    while process.poll() is None and not os.path.exists(os.path.join(out, "unfinished")):
+    while process.poll() is None and not os.path.exists(os.path.join(out, "unfinished", "run.json")):
         time.sleep(0.005)
     time.sleep((tools.seed % 7) * 0.15 * (time.monotonic() - begun + 0.2))
     if process.poll() is None:

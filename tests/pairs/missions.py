@@ -164,7 +164,7 @@ def add_robots(mission, special, row):
         return robots
     for robot in robots:
         if row["building"] == "furnished":
-            robot["position"] = [-7.4] + robot["position"][1:]  # what falls off it comes as far as 6 m
+            robot["position"] = [-10 if row["surroundings"] == "none" else -7.4] + robot["position"][1:]  # of what falls off it
         kind = robot.get("model") or robot["name"]
         drive, told = COMMANDS[kind]
         control = special.get("@control")

@@ -35,10 +35,11 @@ def topics_have_messages(data):
 
 
 def odometry_lasts(data):
-    """Odometry and joints reach the last picture."""
+    """Odometry and joints reach the last picture, or the end of what the mission drives."""
     if data.recording is None or not data.scenario["robots"]:
         return
-    end = max(int(camera.poses[0][-1]) for camera in data.cameras)
+    driven = int(data.cameras[0].poses[0][data.flight_frames(data.cameras[0])[0]]) + int(data.scenario["robot_run"]["duration"] * 1e9)
+    end = min(driven, max(int(camera.poses[0][-1]) for camera in data.cameras))
     for topic in data.recording.of_type("nav_msgs/Odometry") + data.recording.of_type("sensor_msgs/JointState"):
         messages = data.recording.topics[topic]
         need(messages and messages[-1][0] >= end, "%s ends %.3f s before the last picture", topic,

@@ -200,6 +200,31 @@ void add_scores(mrpt::config::CConfigFileMemory& config) {
                "priority*(4*nearness + freedom + 0.2*steadiness)");
 }
 
+// Directions are judged by how far they are free, how near their sector is to the goal's, how near the goal they end,
+// and whether they are those of before. MRPT wants a number for each of its factors, of which 2.5 has seven and 2.14
+// eight, which no header tells: the list grows until it is taken.
+void add_evaluation(mrpt::config::CConfigFileMemory& config, const std::string& section, const NavigatorOptions& o) {
+  config.write(section, "TOO_CLOSE_OBSTACLE", kTooClose / o.horizon);
+  config.write(section, "OBSTACLE_SLOW_DOWN_DISTANCE", kSlowDown / o.horizon);
+  config.write(section, "TARGET_SLOW_APPROACHING_DISTANCE", kSlowDown);
+  config.write(section, "PHASE_COUNT", 1);
+  config.write(section, "PHASE1_FACTORS", "[0 1 2 3]");
+  config.write(section, "PHASE1_THRESHOLD", 0.9);
+  constexpr int kLeastFactors = 7, kMostFactors = 12;
+  std::string weights = "[0.5, 0.3, 1, 0.1, 0, 0, 0", as_they_are = "[0, 0, 0, 0, 0, 0, 0";
+  for (int factors = kLeastFactors;; ++factors) {
+    config.write(section, "factorWeights", weights + "]");
+    config.write(section, "factorNormalizeOrNot", as_they_are + "]");
+    try {
+      mrpt::nav::CHolonomicFullEval::TOptions().loadFromConfigFile(config, section);
+      return;
+    } catch (const std::exception&) {
+      if (factors == kMostFactors) throw;
+    }
+    weights += ", 0", as_they_are += ", 0";
+  }
+}
+
 mrpt::config::CConfigFileMemory make_config(const NavigatorOptions& o) {
   mrpt::config::CConfigFileMemory config;
   const std::string base = "CAbstractPTGBasedReactive", evaluation = "CHolonomicFullEval";
@@ -212,20 +237,7 @@ mrpt::config::CConfigFileMemory make_config(const NavigatorOptions& o) {
   config.write(base, "use_delays_model", false);  // there are none in lock-step
   config.write(base, "enable_obstacle_filtering", false);
   config.write(base, "evaluate_clearance", false);
-  // Directions are judged by how far they are free, how near their sector is to the goal's, how near the goal they end,
-  // and whether they are those of before.
-  // MRPT 2.5 has seven factors and 2.14 eight: it wants a number for each.
-  std::string weights = "[0.5, 0.3, 1, 0.1", as_they_are = "[0, 0, 0, 0";
-  for (std::size_t i = 4; i < mrpt::nav::CHolonomicFullEval::TOptions().factorWeights.size(); ++i)
-    weights += ", 0", as_they_are += ", 0";
-  config.write(evaluation, "factorWeights", weights + "]");
-  config.write(evaluation, "factorNormalizeOrNot", as_they_are + "]");
-  config.write(evaluation, "TOO_CLOSE_OBSTACLE", kTooClose / o.horizon);
-  config.write(evaluation, "OBSTACLE_SLOW_DOWN_DISTANCE", kSlowDown / o.horizon);
-  config.write(evaluation, "TARGET_SLOW_APPROACHING_DISTANCE", kSlowDown);
-  config.write(evaluation, "PHASE_COUNT", 1);
-  config.write(evaluation, "PHASE1_FACTORS", "[0 1 2 3]");
-  config.write(evaluation, "PHASE1_THRESHOLD", 0.9);
+  add_evaluation(config, evaluation, o);
   config.write(base, "secure_distance_start", 0.0);
   config.write(base, "secure_distance_end", kSlowDown / o.horizon);
   config.write(base, "max_distance_predicted_actual_path", 0.15);

@@ -4,7 +4,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <regex>
 
 #include "tests/app/program.h"
 
@@ -53,10 +52,10 @@ TEST_F(Readers, RosbagChecksTheMessages) {
 }
 
 TEST_F(Readers, RawlogEditCountsTheObservations) {
-  const std::string info = read_with("rawlog-edit --info -i " + file("mission.rawlog"));
-  // MRPT 2.14 writes a blank behind each stroke.
-  for (const char* row : {"camera /      5 / ?30.000", "ground_truth /      5 / ?30.000"})
-    EXPECT_TRUE(std::regex_search(info, std::regex(row))) << row << "\n" << info;
+  std::string info = read_with("rawlog-edit --info -i " + file("mission.rawlog"));
+  for (std::size_t at = 0; (at = info.find("/ 30", at)) != std::string::npos;) info.erase(at + 1, 1);  // as MRPT 2.14 writes
+  for (const char* row : {"camera /      5 /30.000", "ground_truth /      5 /30.000"})
+    EXPECT_NE(info.find(row), std::string::npos) << row << "\n" << info;
 }
 
 TEST_F(Readers, ExportWritesEveryFormatOfAFinishedRun) {

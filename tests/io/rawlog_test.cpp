@@ -12,7 +12,6 @@
 
 #include <cmath>
 #include <map>
-#include <regex>
 #include <sstream>
 
 #include "io/base/atomic_file.h"
@@ -138,9 +137,10 @@ TEST(Rawlog, RawlogEditReadsIt) {
   record(folder / "mission.rawlog", 0);
   const auto info = test::run_command("rawlog-edit --info -i " + (folder / "mission.rawlog"));
   EXPECT_EQ(info.exit_code, 0) << info.output;
-  // MRPT 2.14 writes a blank behind each stroke.
-  for (const char* part : {"number of objects +: 6", "camera, ground_truth", "3 / ?30.000 / ?0.067"})
-    EXPECT_TRUE(std::regex_search(info.output, std::regex(part))) << part << " is not in:\n" << info.output;
+  std::string told = info.output;
+  for (std::size_t at = 0; (at = told.find("/ ", at)) != std::string::npos;) told.erase(at + 1, 1);  // as MRPT 2.14 writes
+  for (const char* part : {"number of objects         : 6", "camera, ground_truth", "3 /30.000 /0.067"})
+    EXPECT_NE(told.find(part), std::string::npos) << part << " is not in:\n" << info.output;
 }
 
 TEST(Rawlog, FurtherChannelsAreObservationsOfTheirOwn) {

@@ -48,9 +48,11 @@ std::string carried_by(const Carrier& ride) {
 // frames: of a single camera; 0: it is one of several.
 std::string describe_camera(const Scenario& s, const MountedCamera& mounted, std::size_t frames) {
   const Intrinsics k = mounted.camera.intrinsics();
-  const std::string name = frames > 0 ? "" : " `" + mounted.name + "`", number = frames > 0 ? ", " + std::to_string(frames) + " frames" : "";
+  const std::string name = frames > 0 ? "" : " `" + mounted.name + "`";
+  const std::string number = frames > 0 ? ", " + std::to_string(frames) + " frames" : "";
+  const double rate_hz = mounted.rate_hz.value_or(s.trajectory.rate_hz);
   std::string text = table_row("colour camera" + name, std::to_string(k.width) + " x " + std::to_string(k.height) + " at " +
-                                   format_number(mounted.rate_hz.value_or(s.trajectory.rate_hz)) + " Hz" + number + carried_by(mounted.ride));
+                                   format_number(rate_hz) + " Hz" + number + carried_by(mounted.ride));
   text += table_row("its lens", describe_lens(k));
   if (mounted.camera.stereo_baseline > 0)
     text += table_row("stereo", "a second camera " + format_number(mounted.camera.stereo_baseline) + " m to the right");

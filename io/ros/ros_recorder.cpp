@@ -110,7 +110,8 @@ class RosRecorder : public Recorder {
     clock_ = file_->add("/clock", ros::kClock, false);
     tf_static_ = file_->add("/tf_static", ros::kTfMessage, true);
     tf_ = file_->add("/tf", ros::kTfMessage, false);
-    if (std::any_of(recording_.cameras.begin(), recording_.cameras.end(), [](const CameraRecord& c) { return c.carrier.empty(); }))
+    if (std::any_of(recording_.cameras.begin(), recording_.cameras.end(),
+                    [](const CameraRecord& camera) { return camera.carrier.empty(); }))
       pose_ = file_->add("/ground_truth/pose", ros::kPoseStamped, false);
     for (const CameraRecord& camera : recording_.cameras) {
       CameraTopics& topics = cameras_.emplace_back();

@@ -105,7 +105,8 @@ void add_terrain(Schema& k, TerrainScenario& t) {
 
 void add_building(Schema& k, BuildingSpec& b) {
   k.group("pile.building",
-          "A building, centred at the origin on the ground z = 0, that collapses before the first layer falls. Terrain may lie beside it, not in it. "
+          "A building, centred at the origin on the ground z = 0, that collapses before the first layer falls. "
+          "Terrain may lie beside it, not in it. "
           "rubble.building makes a pile of it.");
   k.choice("pile.building.kind", b.kind, {"frame", "masonry", "precast", "bridge"},
            "`frame`: columns, beams and slabs of reinforced concrete, cast in place. `masonry`: walls on all grid "
@@ -231,7 +232,10 @@ void add_cause(Schema& k, CollapseCause& c) {
   k.value("pile.building.cause.overloaded_floor", c.overloaded_floor,
           "Floor with an additional load; 0: the slab above the ground storey; -1: none.")
       .between(-1, 11);
-  k.value("pile.building.cause.overload", c.overload, "Additional load of `overloaded_floor`. Its pieces carry it as their own mass, so thin boards take less.").between(0, 3000).unit("kg/m2");
+  k.value("pile.building.cause.overload", c.overload,
+          "Additional load of `overloaded_floor`. Its pieces carry it as their own mass, so thin boards take less.")
+      .between(0, 3000)
+      .unit("kg/m2");
   k.value("pile.building.cause.shake", c.shake, "Peak ground acceleration.").between(0, 20).unit("m/s2");
   k.value("pile.building.cause.shake_hz", c.shake_hz, "Centre of the frequency range of the motion.").between(0.2, 20).unit("Hz");
   k.value("pile.building.cause.shake_seconds", c.shake_seconds, "Duration of the motion.").between(1, 60).unit("s");

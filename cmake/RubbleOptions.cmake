@@ -161,3 +161,12 @@ function(rubble_batches)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE BATCH UNITY_BUILD_BATCH_SIZE 8)
   endforeach()
 endfunction()
+
+# rubble_load_first(TARGET LIBRARY...): programs that link TARGET name these shared libraries before all others. The
+# dynamic linker looks every symbol up in one library after the other, in the order in which a program names them. Of
+# the 200,000 that `rubble` begins with, 57,000 are OpenVDB's own and 12,000 OMPL's.
+function(rubble_load_first target)
+  if(NOT RUBBLE_SANITIZE)  # a sanitizer's own library has to be the first
+    target_link_options(${target} INTERFACE ${ARGN})
+  endif()
+endfunction()

@@ -12,6 +12,11 @@ import numpy as np
 import rubble
 from rubble.envs import CrawlerNav, SnakeExplore, VoidExplore
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from shared_piles import share_piles
+
+share_piles()
+
 SMALL = {"size": 16, "max_steps": 12, "pile_seeds": range(1, 4)}
 
 
@@ -173,12 +178,12 @@ class Memory(unittest.TestCase):
     ENVS = ((VoidExplore, {"size": 16}, 1.0), (CrawlerNav, {"rays": 16}, 0.2), (SnakeExplore, {"size": 16}, 0.2))
 
     @staticmethod
-    def grow(env, steps, keep=lambda observation: None):
+    def grow(env, steps, keep=lambda observation: None, warm_up=200):
         """How much more memory is in use after so many steps; bytes."""
         actions = np.random.default_rng(1).uniform(-1, 1, (100, 15))
         env.reset(seed=1)
         before = 0
-        for k in range(-400, steps):  # the first of them make what is made once
+        for k in range(-warm_up, steps):  # the first of them make what is made once
             if k == 0:
                 before = used_memory()
             observation, _, terminated, truncated, _ = env.step(actions[k % 100, :env.action_space.shape[0]])
@@ -193,12 +198,8 @@ class Memory(unittest.TestCase):
             steps = int(share * self.STEPS)
             env = make(max_steps=100, pile_seeds=[1], **options)
             self.assertLess(self.grow(env, steps), (64 << 10) + steps, make.__name__)
-
-    def test_would_see_observations_that_are_kept(self):
-        for make, options, _ in self.ENVS:
-            kept = []
-            env = make(max_steps=100, pile_seeds=[1], **options)
-            self.assertGreater(self.grow(env, 600, kept.append), (64 << 10) + 600, make.__name__)
+            kept = []  # the control: observations that are kept are seen
+            self.assertGreater(self.grow(env, 200, kept.append, 0), (64 << 10) + 200, make.__name__)
 
 
 class Rules(unittest.TestCase):

@@ -68,12 +68,19 @@ void open_as(int descriptor, const std::string& path, int flags) {
   close(file);
 }
 
-// Runs the program in a process that was forked from this one: loading its more than two hundred libraries takes
-// longer than most commands.
-int run_forked(const std::vector<std::string>& words, const std::string& out, const std::string& err) {
+bool can_fork(const std::optional<std::vector<std::string>>& words) {
+  return words && !words->empty() && !starts_the_program_itself(words->front()) &&
+         count_threads() - kThreadsOfLibraries == 1;
+}
+
+// The program in a process that is forked from this one: loading its more than two hundred libraries takes longer than
+// most commands. It does with the signal what is usual.
+pid_t start_forked(const std::vector<std::string>& words, const std::string& out, const std::string& err,
+                   int signal = SIGTERM) {
   std::fflush(nullptr), std::cout.flush();
   const pid_t child = fork();
   if (child == 0) {
+    std::signal(signal, SIG_DFL);  // nohup ignores SIGHUP
     if (chdir(RUBBLE_SOURCE_DIR) != 0) _exit(126);
     open_as(STDIN_FILENO, "/dev/null", O_RDONLY);
     open_as(STDOUT_FILENO, out, O_WRONLY | O_CREAT | O_TRUNC);
@@ -87,9 +94,7 @@ int run_forked(const std::vector<std::string>& words, const std::string& out, co
     std::fflush(nullptr), std::cout.flush(), std::cerr.flush();
     _exit(code);  // what libraries do at the end waits for their threads, which are not in this process
   }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return status;
+  return child;
 }
 
 }  // namespace
@@ -98,8 +103,8 @@ Outcome run_rubble(const std::string& arguments, const std::string& before) {
   const ScratchFolder scratch;
   const auto words = before.empty() ? split_words(arguments) : std::nullopt;
   int status = 0;
-  if (words && !words->empty() && !starts_the_program_itself(words->front()) && count_threads() - kThreadsOfLibraries == 1) {
-    status = run_forked(*words, scratch / "out", scratch / "err");
+  if (can_fork(words)) {
+    waitpid(start_forked(*words, scratch / "out", scratch / "err"), &status, 0);
   } else {
     const std::string command = "cd '" RUBBLE_SOURCE_DIR "' && " + before + " '" RUBBLE_PROGRAM "' " + arguments + " >'" +
                                 (scratch / "out") + "' 2>'" + (scratch / "err") + "' </dev/null";
@@ -129,21 +134,27 @@ Outcome run_rubble_and_signal(const std::string& arguments, double seconds, int 
       arguments, [end] { return std::chrono::steady_clock::now() >= end; }, signal);
 }
 
-Outcome run_rubble_and_signal(const std::string& arguments, const std::function<bool()>& when,
+Outcome run_rubble_and_signal(const std::string& arguments, const std::function<bool()>& when, int signal) {
+  return run_rubble_and_signal(arguments, [&](const std::string&) { return when(); }, signal);
+}
+
+Outcome run_rubble_and_signal(const std::string& arguments, const std::function<bool(const std::string& said)>& when,
                               int signal) {
   const ScratchFolder scratch;
-  const std::string command = "cd '" RUBBLE_SOURCE_DIR "' && exec '" RUBBLE_PROGRAM "' " +
-                              arguments + " >'" + (scratch / "out") + "' 2>'" + (scratch / "err") +
-                              "' </dev/null";
-  const pid_t child = fork();
-  if (child == 0) {
-    std::signal(signal, SIG_DFL);  // nohup ignores SIGHUP
+  const auto words = split_words(arguments);
+  pid_t child = 0;
+  if (can_fork(words)) {
+    child = start_forked(*words, scratch / "out", scratch / "err", signal);
+  } else if ((child = fork()) == 0) {
+    const std::string command = "cd '" RUBBLE_SOURCE_DIR "' && exec '" RUBBLE_PROGRAM "' " + arguments + " >'" +
+                                (scratch / "out") + "' 2>'" + (scratch / "err") + "' </dev/null";
+    std::signal(signal, SIG_DFL);
     execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
     _exit(127);
   }
   int status = 0;
   pid_t ended = 0;
-  while ((ended = waitpid(child, &status, WNOHANG)) == 0 && !when())
+  while ((ended = waitpid(child, &status, WNOHANG)) == 0 && !when(read_file(scratch / "err")))
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   if (ended == 0) {
     kill(child, signal);

@@ -24,8 +24,10 @@ Outcome run_rubble_to(const std::string& arguments, const std::string& redirecti
 // Sends it a signal after so many seconds of the clock on the wall, unless it has ended by then;
 // the exit code of one that a signal killed is 128 and the signal.
 Outcome run_rubble_and_signal(const std::string& arguments, double seconds, int signal);
-// Likewise, as soon as `when` is true.
+// Likewise, as soon as `when` is true; said: on its standard error so far.
 Outcome run_rubble_and_signal(const std::string& arguments, const std::function<bool()>& when,
+                              int signal);
+Outcome run_rubble_and_signal(const std::string& arguments, const std::function<bool(const std::string& said)>& when,
                               int signal);
 
 // A mission that takes a fraction of a second: 16 bricks, 3 frames of 64x48.

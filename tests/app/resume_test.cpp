@@ -141,7 +141,7 @@ TEST(Resume, TakesNoPileOfAnotherSeed) {
   for (const std::string of : {"pile", "pile and note", "altered note"}) {
     fs::remove_all(folder);
     const Outcome killed = run_rubble_and_signal(
-        "run " + (scratch / "tiny.lua") + " --seed 2 --set camera.width=400 --set camera.height=300 --out " + folder,
+        "run " + (scratch / "tiny.lua") + " --seed 2 --out " + folder,
         has_pile, SIGKILL);
     if (killed.exit_code == 0) continue;  // it was quicker
     ASSERT_TRUE(has_pile());
@@ -164,8 +164,8 @@ TEST(Resume, OneProcessAtATimeInAFolder) {
   const ScratchFolder scratch;
   write_file(scratch / "tiny.lua", kTinyMission);
   const std::string folder = scratch / "shared";
-  const std::string run = "run " + (scratch / "tiny.lua") + " --set camera.width=300 --force --out " + folder + " --seed ";
-  std::vector<Outcome> ends(4);
+  const std::string run = "run " + (scratch / "tiny.lua") + " --force --out " + folder + " --seed ";
+  std::vector<Outcome> ends(3);
   std::vector<std::thread> together;
   for (std::size_t i = 0; i < ends.size(); ++i)
     together.emplace_back([&, i] { ends[i] = run_rubble(run + std::to_string(i + 1)); });

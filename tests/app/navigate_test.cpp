@@ -245,11 +245,8 @@ TEST(CollisionCounter, APressureThatLastsIsOneCollision) {
   EXPECT_EQ(play(true), 2);
 }
 
-class NavigationBench : public ::testing::Test {
- protected:
-  // Under the slab is a void that is open at both ends, and a block in it.
-  void SetUp() override {
-    write_file(folder_ / "m.lua", R"(
+// Under the slab is a void that is open at both ends, and a block in it.
+const char* const kMission = R"(
 return rubble.mission {
   seed = 2,
   pile = rubble.join(
@@ -258,16 +255,35 @@ return rubble.mission {
   camera = { width = 64, height = 48 },
   trajectory = { rate_hz = 5, waypoints = { { t = 0, position = { -5, 0, 2 }, look_at = { 0, 0, 0.5 } },
                                             { t = 0.4, position = { -5, 0.2, 2 }, look_at = { 0, 0, 0.5 } } } },
-})");
+})";
+
+class NavigationBench : public ::testing::Test {
+ protected:
+  struct Drives {
+    Outcome outcome;
+    std::string missions, way_of_2;  // of its files
+  };
+
+  void SetUp() override { write_file(folder_ / "m.lua", kMission); }
+  static Outcome navigate_in(const ScratchFolder& folder, const std::string& options) {
+    return run_rubble("bench navigate " + (folder / "m.lua") + " --quiet --force --out " + (folder / "out") + " " + options);
   }
-  Outcome navigate(const std::string& options) const {
-    return run_rubble("bench navigate " + (folder_ / "m.lua") + " --quiet --force --out " + (folder_ / "out") + " " + options);
+  Outcome navigate(const std::string& options) const { return navigate_in(folder_, options); }
+  // Driven once for all tests.
+  static const Drives& seeds_2_and_3() {
+    static const Drives once = [] {
+      const ScratchFolder folder;
+      write_file(folder / "m.lua", kMission);
+      const Outcome both = navigate_in(folder, "--seeds 2..3 --json");
+      return Drives{both, read_file(folder / "out/missions.csv"), read_file(folder / "out/ways/2.csv")};
+    }();
+    return once;
   }
   ScratchFolder folder_;
 };
 
 TEST_F(NavigationBench, TheCrawlerDrivesThroughTheVoidEachTimeTheSame) {
-  const Outcome both = navigate("--seeds 2..3 --json");
+  const Outcome& both = seeds_2_and_3().outcome;
   ASSERT_EQ(both.exit_code, 0) << both.err;
   const Json table = Json::parse(both.out, nullptr, false);
   ASSERT_TRUE(table.is_object()) << both.out;
@@ -278,7 +294,7 @@ TEST_F(NavigationBench, TheCrawlerDrivesThroughTheVoidEachTimeTheSame) {
   EXPECT_GT(row["path_m"], 3);
   EXPECT_LT(row["time_s"], 60);
   EXPECT_TRUE(row.contains("deadlines_missed"));
-  std::istringstream lines(read_file(folder_ / "out/missions.csv"));
+  std::istringstream lines(seeds_2_and_3().missions);
   std::string head, second, third;
   std::getline(lines, head), std::getline(lines, second), std::getline(lines, third);
   EXPECT_NE(second.substr(0, 16), third.substr(0, 16)) << "two piles, one drive";
@@ -355,8 +371,7 @@ TEST_F(NavigationBench, WritesMissionsThatAreDrivenOverTopics) {
   EXPECT_EQ(scenario["seed"], 2);
   EXPECT_EQ(scenario["trajectory"]["ride"]["robot"], robot["name"]);
   // Where the goals are in the world: the last one where the benchmark drives to.
-  ASSERT_EQ(navigate("--seeds 2").exit_code, 0);
-  std::istringstream way(read_file(folder_ / "out/ways/2.csv"));
+  std::istringstream way(seeds_2_and_3().way_of_2);
   std::string line;
   std::getline(way, line), std::getline(way, line);
   std::vector<double> row;

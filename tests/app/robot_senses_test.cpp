@@ -33,8 +33,9 @@ std::string mission(const std::string& control, const std::string& more = "") {
   robot_run = { duration = 0.8 },
   lidars = { top = { model = "vlp16", ride = { robot = "rover" }, position = { 0, 0, 0.7 }, returns = "dual" } },
   cameras = {
-    eye = { ride = { robot = "rover" }, position = { 0.3, 0, 0.25 }, width = 40, height = 30, fov_deg = 60, rate_hz = 20 },
-    watch = { width = 32, height = 32 },
+    eye = { ride = { robot = "rover" }, position = { 0.3, 0, 0.25 }, width = 40, height = 30, fov_deg = 60, rate_hz = 20,
+            quality = "draft" },
+    watch = { width = 32, height = 32, quality = "draft" },
   },
   trajectory = { rate_hz = 2, waypoints = { { t = 0, position = { -3, 0, 2 }, look_at = { 0, 0, 0 } } } },
   )" + more + "}\n";
@@ -140,7 +141,7 @@ TEST(RobotSenses, RangesOfAScannerHaveTheAnglesThatAreTold) {
     robot_run = { duration = 0.3 },
     lidars = { flat = { model = "utm30lx", ride = { robot = "rover" }, position = { 0, 0, 0.7 }, noise = false,
                         range_step = 0 } },
-    camera = { width = 32, height = 32 },
+    camera = { width = 32, height = 32, quality = "draft" },
   })");
   ASSERT_EQ(told.size(), 3u);
   EXPECT_NEAR(told[0], 1.4 / (0.25 * 3.14159265358979 / 180), 2);
@@ -164,7 +165,7 @@ TEST(RobotSenses, ReadingsOfAnInertialUnitAreThoseThatAreRecorded) {
       end } },
     robot_run = { duration = 1.5 },
     imu = { on = true, rate_hz = 250, position = { 0.1, 0.05, 0.2 }, rpy_deg = { 10, 20, 30 } },
-    camera = { width = 32, height = 32 },
+    camera = { width = 32, height = 32, quality = "draft" },
     trajectory = { rate_hz = 2, ride = { robot = "rover" } },
     outputs = { euroc = true },
   })");
@@ -332,7 +333,7 @@ TEST(RobotSenses, WhatCannotBeSensedIsAMistakeWithItsKey) {
 TEST(RobotSenses, ARoverFindsItsWayThroughALeanToByItsScans) {
   const ScratchFolder scratch;
   const Outcome run = run_rubble("run scripts/robots/follow_the_gap.lua --set trajectory.rate_hz=0.01 --set camera.width=32"
-                                 " --set camera.height=32" +
+                                 " --set camera.height=32 --set camera.quality=draft" +
                                  kNoFrames + (scratch / "out"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   std::istringstream lines(read_file(scratch / "out/robots/rover.txt"));

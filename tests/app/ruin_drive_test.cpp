@@ -26,7 +26,7 @@ constexpr const char* kMission = R"(return rubble.mission {
   robot_run = { duration = 2.5 },
   lidars = { scan = { model = "utm30lx", rate_hz = 10, ride = { robot = "tank" }, position = { 0.2, 0, 0.3 } } },
   imu = { on = true },
-  camera = { width = 32, height = 24 },
+  camera = { width = 32, height = 24, quality = "draft" },
   trajectory = { rate_hz = 2, ride = { robot = "tank", position = { 0.3, 0, 0.3 } } },
   outputs = { mcap = true, simplemap = false, preview = false },
 })";

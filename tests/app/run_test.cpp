@@ -192,8 +192,8 @@ TEST(Run, LeavesAFolderCalledUnfinishedThatIsNotOurs) {
 
 TEST(Run, ForceKeepsForeignFilesAmongTheRecordings) {
   const ScratchFolder scratch;
-  const std::string command = "run scripts/outputs.lua --quiet --set camera.width=64 --set camera.height=48"
-                              " --set pile.layers=1 --set pile.pieces_per_layer=12 --set trajectory.rate_hz=1 --out " +
+  write_file(scratch / "tiny.lua", kTinyMission);
+  const std::string command = "run " + (scratch / "tiny.lua") + " --quiet --set camera.quality=draft --set outputs.tum=true --out " +
                               (scratch / "run");
   ASSERT_EQ(run_rubble(command).exit_code, 0);
   ASSERT_TRUE(fs::exists(scratch / "run/tum/rgb.txt"));

@@ -102,7 +102,7 @@ TEST(Victims, AreInEveryProductOfARunAndTheSameWhenItIsMadeAgain) {
   const ScratchFolder folder;
   write_file(folder / "m.lua", kMission);
   const std::string out = folder / "out";
-  const Outcome run = run_rubble("run " + (folder / "m.lua") + " --quiet --out " + out);
+  const Outcome run = run_rubble("run " + (folder / "m.lua") + " --quiet --set camera.quality=draft --out " + out);
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Json json = Json::parse(read_file(out + "/victims.json"), nullptr, false);
   ASSERT_TRUE(json.is_object());
@@ -173,7 +173,7 @@ TEST(Victims, LieInAMissionWithARobot) {
   text.insert(text.find("camera ="), "robots = { rubble.robot.rover { position = { -3, 0, 0.001 }, drive = { { t = 0, "
                                      "linear = 0.5 } } } }, robot_run = { duration = 1 },\n  ");
   write_file(folder / "r.lua", text);
-  const Outcome run = run_rubble("run " + (folder / "r.lua") + " --quiet --set outputs.bag=false --out " + (folder / "out"));
+  const Outcome run = run_rubble("run " + (folder / "r.lua") + " --quiet --set camera.quality=draft --set outputs.bag=false --out " + (folder / "out"));
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const Json json = Json::parse(read_file(folder / "out/victims.json"), nullptr, false);
   EXPECT_EQ(json["victims"].size(), 2u);

@@ -61,6 +61,12 @@ std::vector<std::string> names_of_lidars(const Scenario& scenario) {
   return names;
 }
 
+std::vector<std::string> names_of_sensors(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const SensorItem& sensor : scenario.sensors) names.push_back(sensor.name);
+  return names;
+}
+
 // Which frame of a leg is being taken, and of how many: an image that takes minutes reports on its way.
 struct Taking {
   int frame = 0, frames = 1;
@@ -95,6 +101,8 @@ void take_samples(SensorSuite& sensors, const Leg& leg, FrameSinks& sinks, const
       recorded.hashes.add_imu(*reading);
     } else if (const auto* robot = std::get_if<RobotSample>(&*sample)) {
       recorded.hashes.add_robot(*robot);
+    } else if (const auto* values = std::get_if<Reading>(&*sample)) {
+      recorded.hashes.add_reading(*values);
     } else if (const auto* scan = std::get_if<LidarScan>(&*sample)) {
       recorded.hashes.add_lidar(*scan);
       throw_if_stopped(folder.path());
@@ -233,7 +241,7 @@ RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& 
                              RunFolder& folder, RunContext& context) {
   GlContext gl({context.options.gl_device, context.threads()});
   RecordedFrames recorded;
-  recorded.hashes = FrameHashes(names_of_cameras(flight.flown), names_of_lidars(flight.flown));
+  recorded.hashes = FrameHashes(names_of_cameras(flight.flown), names_of_lidars(flight.flown), names_of_sensors(flight.flown));
   recorded.environment = describe_environment(gl.info(), context.threads());
   record(flight, mission, {pile, robots}, gl, folder, context, recorded);
   return recorded;

@@ -6,6 +6,8 @@
 #include "app/control/robot_senses.h"
 #include "app/control/script_control.h"
 #include "app/pipeline/stages.h"
+#include "app/robots/buried_sensors.h"
+#include "app/robots/felt_links.h"
 #include "app/robots/mission_robot.h"
 #include "app/robots/ride_recorder.h"
 #include "app/robots/robot_files.h"
@@ -99,9 +101,13 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
       });
     }
     rides.note(run.world());
+    ContactHistory contacts(options.step);
+    for (const std::string& warning : find_buried_sensors(mission.scenario, made)) context.warnings.push_back(warning);
+    driven.readings.felt = find_felt_links(mission.scenario, made);
     senses.begin(run, options.step);
     result = run.run([&](double done) {
       rides.note(run.world());
+      if (!mission.scenario.sensors.empty()) contacts.note(run.world(), int(robots.size()));
       senses.note_step(run.world());
       char time[32];
       std::snprintf(time, sizeof time, "%.1f s", done * mission.scenario.robot_run.duration);
@@ -113,6 +119,7 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
       const RobotSense last{run.world().time(), run.world().robot_state(int(i)), run.world().robot_contacts(int(i))};
       if (!last.state.lost) logs[i].note(last);
     }
+    driven.readings.contacts = std::move(contacts);
     driven.mount = rides.finish(options.step, driven.records, driven.readings);
     return true;
   });

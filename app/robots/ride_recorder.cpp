@@ -20,6 +20,7 @@ RideRecorder::RideRecorder(const Scenario& scenario, const std::vector<MissionRo
   for (const LidarScenario& lidar : scenario.lidars) add(lidar.ride, "lidars." + lidar.name + ".ride");
   add(scenario.imu.ride, "imu.ride");
   for (const ImuScenario& imu : scenario.imus) add(imu.ride, "imus." + imu.name + ".ride");
+  for (const SensorItem& sensor : scenario.sensors) add(sensor.ride, sensor.key() + ".ride");
 }
 
 void RideRecorder::add(const Carrier& carrier, const std::string& key) {

@@ -107,6 +107,13 @@ Scene build_robot_scene(const Scenario& scenario, const AssetLibrary& assets, co
   return scene;
 }
 
+std::optional<Pose> pose_in_track(const Track& track, int id, std::int64_t since_ns) {
+  const TrackBody* const body = track.find(id);
+  if (!body) return std::nullopt;
+  const auto motion = track.motion_at(*body, seconds_between(0, since_ns));
+  return motion ? std::optional<Pose>(motion->world_from_body) : std::nullopt;
+}
+
 Scene build_live_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
                        const RobotTrack& robots, LivePose pose_of) {
   Scene scene = build_scene(scenario, assets, pile);

@@ -56,7 +56,7 @@ struct Driven {
 // What a run of the kept mission does, against what was driven.
 void expect_same_bits(const ScratchFolder& scratch, Driven& driven, const std::string& in = "") {
   write_file(scratch / (in + "leg.lua"), scenario_to_lua(driven.drive->scenario(driven.mission.scenario), "kept"));
-  save_track(driven.drive->finish().track, scratch / "leg.track");
+  save_track(driven.drive->finish(), scratch / "leg.track");
   const Outcome run = run_rubble("run " + (scratch / (in + "leg.lua")) + " --quiet --set trajectory.rate_hz=0.5 --out " +
                                  (scratch / "out"));
   ASSERT_EQ(run.exit_code, 0) << run.err;

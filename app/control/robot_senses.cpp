@@ -30,6 +30,8 @@ RobotSenses::Sensed RobotSenses::sensed() const {
   Sensed all;
   for (std::size_t i = 0; i < scenario_.lidars.size(); ++i)
     if (is_sensed(scenario_, scenario_.lidars[i].name)) all.lidars.push_back(i);
+  for (std::size_t i = 0; i < scenario_.sensors.size(); ++i)
+    if (is_sensed(scenario_, scenario_.sensors[i].name)) all.readings.push_back(i);
   for (std::size_t i = 0; i < camera_names_.size(); ++i) {
     if (is_sensed(scenario_, camera_names_[i])) all.depths.push_back(i);
     if (is_sensed(scenario_, colour_sense(camera_names_[i]))) all.colours.push_back(i);
@@ -42,6 +44,7 @@ RobotSenses::Sensed RobotSenses::sensed() const {
 std::string RobotSenses::sense_of(const Sample& sample) const {
   if (const auto* scan = std::get_if<LidarScan>(&sample)) return scenario_.lidars[std::size_t(scan->sensor)].name;
   if (const auto* reading = std::get_if<ImuSample>(&sample)) return imu_names_[std::size_t(reading->sensor)];
+  if (const auto* values = std::get_if<Reading>(&sample)) return scenario_.sensors[std::size_t(values->sensor)].name;
   const auto* frame = std::get_if<Frame>(&sample);
   if (!frame) return "";
   const std::string& camera = camera_names_[std::size_t(frame->sensor)];
@@ -58,16 +61,20 @@ void RobotSenses::hear(const Sample& sample) {
 void RobotSenses::tell(std::size_t robot, Value& told) {
   const std::int64_t start = scenario_.start_ns;
   Value lidars = Value::make_table(), cameras = Value::make_table(), images = Value::make_table();
-  Value imus = Value::make_table();
-  std::map<std::string, Value> readings;
+  std::map<std::string, Value> imus, sensors;
+  const auto add = [](std::map<std::string, Value>& lists, const std::string& name, Value reading) {
+    lists.emplace(name, Value::make_table()).first->second.items.push_back(std::move(reading));
+  };
   // Of several scans and pictures since the last call, the newest; of readings, all.
   for (const auto& sample : std::exchange(untold_[robot], {})) {
     if (const auto* scan = std::get_if<LidarScan>(&*sample)) {
       const LidarScenario& lidar = scenario_.lidars[std::size_t(scan->sensor)];
       lidars.set(lidar.name, describe_scan(*scan, lidar.spec(), start));
     } else if (const auto* reading = std::get_if<ImuSample>(&*sample)) {
-      const auto list = readings.emplace(imu_names_[std::size_t(reading->sensor)], Value::make_table()).first;
-      list->second.items.push_back(describe_reading(*reading, start));
+      add(imus, imu_names_[std::size_t(reading->sensor)], describe_reading(*reading, start));
+    } else if (const auto* values = std::get_if<Reading>(&*sample)) {
+      const SensorItem& sensor = scenario_.sensors[std::size_t(values->sensor)];
+      add(sensors, sensor.name, describe_values(*values, sensor, start));
     } else {
       const Frame& frame = std::get<Frame>(*sample);
       const std::string& camera = camera_names_[std::size_t(frame.sensor)];
@@ -77,11 +84,14 @@ void RobotSenses::tell(std::size_t robot, Value& told) {
         images.set(camera, describe_colours(frame, start));
     }
   }
-  for (auto& [name, list] : readings) imus.set(name, std::move(list));
   told.set("lidars", std::move(lidars));
   told.set("cameras", std::move(cameras));
   told.set("images", std::move(images));
-  told.set("imus", std::move(imus));
+  for (const auto& [member, lists] : {std::make_pair("imus", &imus), std::make_pair("sensors", &sensors)}) {
+    Value table = Value::make_table();
+    for (auto& [name, list] : *lists) table.set(name, std::move(list));
+    told.set(member, std::move(table));
+  }
 }
 
 }  // namespace rubble

@@ -1,4 +1,4 @@
-// What the functions that drive robots are told of LiDARs, cameras and inertial units: who gets which sample.
+// What the functions that drive robots are told of sensors: who gets which sample.
 #pragma once
 
 #include <cstddef>
@@ -22,13 +22,13 @@ class RobotSenses {
 
   // Numbers of the sensors that `senses` of any robot names.
   struct Sensed {
-    std::vector<std::size_t> lidars, depths, colours, imus;
+    std::vector<std::size_t> lidars, readings, depths, colours, imus;
   };
   Sensed sensed() const;
 
   // A frame has depth, or colours.
   void hear(const Sample& sample);
-  // Adds `lidars`, `cameras`, `images` and `imus` to what the robot's function is told: what was heard since its last
+  // Adds `lidars`, `cameras`, `images`, `imus` and `sensors` to what the robot's function is told: what was heard since its last
   // call.
   void tell(std::size_t robot, Value& told);
 

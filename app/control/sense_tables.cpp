@@ -159,6 +159,14 @@ Value describe_reading(const ImuSample& reading, std::int64_t start_ns) {
   return table;
 }
 
+Value describe_values(const Reading& reading, const SensorItem& sensor, std::int64_t start_ns) {
+  Value table = Value::make_table();
+  table.set("t", describe_stamp(reading.stamp_ns, start_ns));
+  const std::vector<ReadingColumn> columns = sensor.figures->columns();
+  for (std::size_t i = 0; i < columns.size(); ++i) table.set(columns[i].name, Value::make_number(reading.values[i]));
+  return table;
+}
+
 Value describe_depth(const Frame& frame, std::int64_t start_ns) {
   Value depth = Value::make_table();
   depth.items.reserve(frame.depth.size());

@@ -10,6 +10,8 @@
 #include "render/scene/frame.h"
 #include "render/scene/lidar_scan.h"
 #include "render/scene/lidar_spec.h"
+#include "render/scene/reading.h"
+#include "scripting/sensors/sensor_item.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
@@ -21,6 +23,8 @@ Value describe_odometry(const OdometryReading& reading);
 // start_ns: the stamp of the robots' time 0.
 Value describe_scan(const LidarScan& scan, const LidarSpec& spec, std::int64_t start_ns);
 Value describe_reading(const ImuSample& reading, std::int64_t start_ns);
+// By the columns of its kind.
+Value describe_values(const Reading& reading, const SensorItem& sensor, std::int64_t start_ns);
 // The depth of a frame, and its colours.
 Value describe_depth(const Frame& frame, std::int64_t start_ns);
 Value describe_colours(const Frame& frame, std::int64_t start_ns);

@@ -5,6 +5,7 @@
 
 #include "app/control/robot_control.h"
 #include "app/pipeline/stages.h"
+#include "app/robots/buried_sensors.h"
 #include "app/robots/robot_files.h"
 #include "app/session/session.h"
 #include "app/support/stop.h"
@@ -65,6 +66,7 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
   for (const MissionRobot& robot : session->robots()) models.push_back(robot.model);
   folder.expect(robot_file_names(names, models));
   DrivenRobots driven = with_lines_of_script(mission, [&] {
+    for (const std::string& warning : find_buried_sensors(mission.scenario, session->robots())) context.warnings.push_back(warning);
     session->start();
     for (std::int64_t steps = session->steps_of_mission(), i = 1; i <= steps && !stop_requested(); ++i) {
       session->step();

@@ -7,6 +7,7 @@
 #include "app/sensors/build_camera.h"
 #include "app/sensors/build_imu.h"
 #include "app/sensors/exact_depth.h"
+#include "app/sensors/reading_sensor.h"
 #include "kernel/base/error.h"
 #include "kernel/base/random.h"
 #include "render/lidar/lidar.h"
@@ -69,6 +70,38 @@ class LiveLidar : public LiveSensor {
   Lidar lidar_;
 };
 
+class LiveReading : public LiveSensor {
+ public:
+  LiveReading(const LiveSensorParts& parts, std::size_t number, std::shared_ptr<const MotionPath> way)
+      : item_(parts.scenario.sensors[number]),
+        number_(int(number)),
+        start_ns_(parts.scenario.start_ns),
+        way_(std::move(way)),
+        world_(parts.world),
+        site_(make_sensor_site(parts.scenario, item_, *way_, world_.get(), forces_of(parts.history.ways(), number))),
+        meter_(item_.start(site_, parts.scenario.seed)) {}
+
+  Needs needs() const override {
+    const std::int64_t stamp = item_.stamp_ns(next_, start_ns_);
+    return {stamp - kRounding, stamp + kRounding, item_.figures->casts_rays() ? stamp + kRounding : INT64_MIN};
+  }
+  Sample take() override {
+    const std::int64_t stamp = item_.stamp_ns(next_, start_ns_);
+    return Reading{number_, stamp, meter_->read(double(next_++) / item_.rate_hz)};
+  }
+
+ private:
+  static constexpr std::int64_t kRounding = 1000;  // of stamps; unit: ns
+
+  SensorItem item_;
+  int number_;
+  std::int64_t start_ns_, next_ = 0;
+  std::shared_ptr<const MotionPath> way_;
+  std::shared_ptr<LidarWorld> world_;
+  SensorSite site_;
+  std::unique_ptr<SensorMeter> meter_;
+};
+
 class LiveDepth : public LiveSensor {
  public:
   LiveDepth(const LiveSensorParts& parts, const MountedCamera& camera, int number, std::shared_ptr<const MotionPath> way)
@@ -108,6 +141,11 @@ std::unique_ptr<LiveSensor> make_live_imu(const LiveSensorParts& parts, std::siz
   const ImuScenario imu = all_imus(parts.scenario).at(number);
   return std::make_unique<LiveImu>(parts.scenario, imu, int(number),
                                    parts.history.way_of(imu.ride, parts.scenario.imus.empty() ? "imu" : "imus." + imu.name));
+}
+
+std::unique_ptr<LiveSensor> make_live_reading(const LiveSensorParts& parts, std::size_t number) {
+  const SensorItem& sensor = parts.scenario.sensors.at(number);
+  return std::make_unique<LiveReading>(parts, number, parts.history.way_of(sensor.ride, sensor.key()));
 }
 
 std::unique_ptr<LiveSensor> make_live_lidar(const LiveSensorParts& parts, std::size_t number) {

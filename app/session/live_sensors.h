@@ -35,8 +35,9 @@ struct LiveSensorParts {
   int threads = 1;
 };
 
-// number: among all_imus(), the scenario's LiDARs, all_cameras(). All throw InputError where no robot carries it.
+// number: among all_imus(), the scenario's sensors and LiDARs, all_cameras(). All throw InputError where no robot carries it.
 std::unique_ptr<LiveSensor> make_live_imu(const LiveSensorParts& parts, std::size_t number);
+std::unique_ptr<LiveSensor> make_live_reading(const LiveSensorParts& parts, std::size_t number);
 std::unique_ptr<LiveSensor> make_live_lidar(const LiveSensorParts& parts, std::size_t number);
 // Planar depth by exact rays, without noise and without what the air does to depth sensors: frames of depth alone.
 // Throws InputError for a lens that is no pinhole.

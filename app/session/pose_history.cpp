@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/robots/felt_links.h"
 #include "app/scene/moving_scene.h"
 #include "kernel/base/error.h"
 
 namespace rubble {
 
 PoseHistory::PoseHistory(const Scenario& scenario, const std::vector<MissionRobot>& robots, double step)
-    : names_(robot_names(scenario.robots)), robots_(robots), start_ns_(scenario.start_ns), step_(step) {
+    : names_(robot_names(scenario.robots)), robots_(robots), start_ns_(scenario.start_ns), step_(step), felt_(!scenario.sensors.empty()) {
   const auto add_link = [&](const Carrier& carrier, const std::string& key) {
     const auto same = [&](const LinkWay& link) { return link.carrier == carrier; };
     if (!carrier.on() || std::any_of(ways_.links.begin(), ways_.links.end(), same)) return;
@@ -26,6 +27,8 @@ PoseHistory::PoseHistory(const Scenario& scenario, const std::vector<MissionRobo
   for (const LidarScenario& lidar : scenario.lidars) add_link(lidar.ride, "lidars." + lidar.name + ".ride");
   add_link(scenario.imu.ride, "imu.ride");
   for (const ImuScenario& imu : scenario.imus) add_link(imu.ride, "imus." + imu.name + ".ride");
+  for (const SensorItem& sensor : scenario.sensors) add_link(sensor.ride, sensor.key() + ".ride");
+  ways_.felt = find_felt_links(scenario, robots);
 }
 
 void PoseHistory::add(const Carrier& carrier, const Pose& link_from_carrier, const std::string& key) {
@@ -59,11 +62,13 @@ std::optional<RigMount> PoseHistory::mount(const std::vector<RobotRecord>& recor
 void PoseHistory::restart(const RobotRun& run) {
   run_ = &run;
   for (Mount& mount : mounts_) mount.way->clear();
-  note_step();
+  for (Mount& mount : mounts_) mount.way->add(place(mount));
+  ways_.contacts = ContactHistory(step_);
 }
 
 void PoseHistory::note_step() {
   for (Mount& mount : mounts_) mount.way->add(place(mount));
+  if (felt_) ways_.contacts.note(run_->world(), int(robots_.size()));
 }
 
 std::int64_t PoseHistory::ways_known_until() const {

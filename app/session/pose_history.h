@@ -30,7 +30,7 @@ class PoseHistory {
   void restart(const RobotRun& run);
   void note_step();  // after each step of the run
 
-  // Of the rig and of each link that carries sensors of its own; they grow.
+  // Of the rig and of each link that carries sensors of its own, and the contacts of links; they grow.
   const RobotReadings& ways() const { return ways_; }
   // The way of what is on `carrier`, or on the rig. Throws InputError, with the key of the sensor, where no robot carries it.
   const std::shared_ptr<const MotionPath>& way_of(const Carrier& carrier, const std::string& key) const;
@@ -57,6 +57,7 @@ class PoseHistory {
   const std::vector<MissionRobot>& robots_;
   std::int64_t start_ns_;
   double step_;
+  bool felt_;  // whether contacts are kept, for sensors of contact
   std::vector<Mount> mounts_;
   int rig_ = -1;  // which of them is the rig
   RobotReadings ways_;

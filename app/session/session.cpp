@@ -7,6 +7,7 @@
 #include "app/control/robot_control.h"
 #include "app/control/robot_senses.h"
 #include "app/control/script_control.h"
+#include "app/sensors/reading_sensor.h"
 #include "app/session/live_colours.h"
 #include "app/session/live_sensors.h"
 
@@ -84,9 +85,9 @@ void Session::start() {
   make_sensors();
 }
 
-// Units of inertia, LiDARs, depth and colours: the order of samples whose stamps are equal.
+// Units of inertia, LiDARs, other kinds, depth and colours: the order of samples whose stamps are equal.
 void Session::make_sensors() {
-  auto [lidars, depths, colours, imus] = script_ ? senses_->sensed() : RobotSenses::Sensed();
+  auto [lidars, readings, depths, colours, imus] = script_ ? senses_->sensed() : RobotSenses::Sensed();
   const auto add = [](std::vector<std::size_t>& list, const std::vector<std::size_t>& more) {
     for (const std::size_t i : more)
       if (std::find(list.begin(), list.end(), i) == list.end()) list.push_back(i);
@@ -95,10 +96,11 @@ void Session::make_sensors() {
   if (options_.observed) {
     add(imus, find_carried(all_imus(scenario_), history_.ways()));
     add(lidars, find_carried(scenario_.lidars, history_.ways()));
+    add(readings, find_carried(scenario_.sensors, history_.ways()));
   }
   if (options_.depth) add(depths, find_carried(all_cameras(scenario_), history_.ways()));
-  const bool rays = !lidars.empty() || !depths.empty();
-  if (imus.empty() && !rays && colours.empty()) return;
+  const bool rays = !lidars.empty() || !depths.empty() || (!readings.empty() && needs_rays(scenario_.sensors));
+  if (imus.empty() && readings.empty() && !rays && colours.empty()) return;
   Scene scene;
   if ((rays && !world_of_rays_) || (!colours.empty() && !colours_))
     scene = build_live_scene(scenario_, mission_.assets, pile_, seen_,
@@ -107,6 +109,7 @@ void Session::make_sensors() {
   const LiveSensorParts parts{scenario_, history_, world_of_rays_, Medium(scenario_.air, scenario_.seed), context_.threads()};
   for (const std::size_t i : imus) sensors_.push_back(make_live_imu(parts, i));
   for (const std::size_t i : lidars) sensors_.push_back(make_live_lidar(parts, i));
+  for (const std::size_t i : readings) sensors_.push_back(make_live_reading(parts, i));
   for (const std::size_t i : depths) sensors_.push_back(make_live_depth(parts, i));
   if (!colours.empty() && !colours_)
     colours_ = std::make_unique<LiveColours>(
@@ -151,13 +154,13 @@ std::vector<Sample> Session::observe() {
 
 DrivenRobots Session::finish() {
   DrivenRobots driven;
+  driven.readings = history_.ways();
   const World& world = run_->world();
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const RobotSense last{world.time(), world.robot_state(int(i)), world.robot_contacts(int(i))};
     if (!last.state.lost) logs_[i].note(last);
     driven.readings.samples.push_back(logs_[i].samples());
   }
-  driven.readings.ride = history_.ways().ride, driven.readings.links = history_.ways().links;
   driven.records = records_;
   driven.mount = mount();
   RobotRunResult result = run_->finish();

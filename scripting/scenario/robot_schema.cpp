@@ -137,6 +137,7 @@ void check_senses(const Scenario& scenario, std::size_t i, std::vector<Diagnosti
     names.push_back(colour_sense(camera.name));
   }
   for (const ImuScenario& imu : all_imus(scenario)) names.push_back(imu.name);
+  for (const SensorItem& sensor : scenario.sensors) names.push_back(sensor.name);
   std::string all;
   for (const std::string& name : names) all += (all.empty() ? "one of " : ", ") + name;
   for (std::size_t k = 0; k < robot.senses.size(); ++k) {
@@ -188,14 +189,16 @@ void check_sensor_rides(const Scenario& scenario, const std::vector<std::string>
   check_carrier(scenario.imu.ride, "imu.ride", names, mistakes);
   for (const ImuScenario& imu : scenario.imus)
     check_carrier(imu.ride, "imus." + imu.name + ".ride", names, mistakes);
+  for (const SensorItem& sensor : scenario.sensors) check_carrier(sensor.ride, sensor.key() + ".ride", names, mistakes);
   const auto on_rig = [](const auto& sensor) { return !sensor.ride.on(); };
   const std::vector<ImuScenario> imus = all_imus(scenario);
   const bool unseen = !scenario.cameras.empty() &&
                       std::none_of(scenario.cameras.begin(), scenario.cameras.end(), on_rig);
   if (unseen && (std::any_of(imus.begin(), imus.end(), on_rig) ||
+                 std::any_of(scenario.sensors.begin(), scenario.sensors.end(), on_rig) ||
                  std::any_of(scenario.lidars.begin(), scenario.lidars.end(), on_rig)))
-    mistakes.push_back({"", 0, "cameras", "no camera is on the rig, but an IMU or LiDAR is",
-                        "a camera on the rig, or a `ride` for every IMU and LiDAR on it", "", ""});
+    mistakes.push_back({"", 0, "cameras", "no camera is on the rig, but another sensor is",
+                        "a camera on the rig, or a `ride` for every other sensor on it", "", ""});
   if (mixed && scenario.outputs.euroc)
     mistakes.push_back({"", 0, "outputs.euroc", "the format has one moving body",
                         "cameras on one carrier, or another format", "cameras on several", ""});

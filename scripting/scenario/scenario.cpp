@@ -179,6 +179,7 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_sky(scenario.light, mistakes);
   check_cameras(scenario, mistakes);
   check_lidars(scenario, mistakes);
+  check_sensors(scenario.sensors, mistakes);
   check_sensor_names(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);
   check_stamps(scenario, mistakes);

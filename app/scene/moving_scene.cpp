@@ -130,9 +130,11 @@ Scene build_live_scene(const Scenario& scenario, const AssetLibrary& assets, con
     const bool piece = std::size_t(mover) < pile.pieces.size();
     if (piece && (fixed_debris || pile.pieces[std::size_t(mover)].status == PieceStatus::fixed)) continue;
     scene.motion.moving.push_back(std::uint32_t(i));
+    if (const auto pose = pose_of(mover, scenario.start_ns)) scene.instances[i].world_from_body = *pose;
     scene.motion.reach.include(scene.instances[i].world_from_body.translation);
     movers.push_back(mover);
   }
+  scene.motion.may_rest = true;
   // Where robots and what they push may get to.
   scene.motion.reach.include(scene.motion.reach.min - Vec3{kLiveReach, kLiveReach, 0});
   scene.motion.reach.include(scene.motion.reach.max + Vec3{kLiveReach, kLiveReach, kLiveReach});

@@ -66,7 +66,7 @@ class RobotWorld {
            wanted ? std::to_string(wanted) + " or none" : "none");
     for (const double angle : flippers) expect(std::isfinite(angle), "flippers", "not a finite number", "radians");
     const Twist twist{linear, angular};
-    command_ = kind_ == Kind::rover ? drive_wheels(model_, twist) : drive_crawler(model_, twist, flippers);
+    command_ = kind_ == Kind::rover ? drive_wheels(model_, twist) : drive_tracks(model_, twist, flippers);
   }
 
   // Of a vine: the speed of its tip (negative: it retracts) and the curvature of what grows; unit: m/s, 1/m

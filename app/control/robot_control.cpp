@@ -12,7 +12,7 @@
 namespace rubble {
 
 RobotCommand drive_sides(const RobotModel& model, const Twist& twist, const std::vector<double>& flippers) {
-  return model.sides.belts ? drive_crawler(model, twist, flippers) : drive_wheels(model, twist);
+  return model.sides.belts ? drive_tracks(model, twist, flippers) : drive_wheels(model, twist);
 }
 
 void ask_motors(const RobotModel& model, const std::vector<double>& targets, MotorMode mode, RobotCommand& command) {

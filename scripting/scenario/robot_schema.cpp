@@ -92,12 +92,19 @@ void check_legs(const RobotItem& robot, std::size_t i, std::vector<Diagnostic>& 
   for (const auto& [member, given] : of_files)
     if (robot.urdf.empty() && given)
       mistakes.push_back({"", 0, key_of(i, member), "only a robot from a URDF file has these", "nothing", "a table", ""});
-  if (robot.urdf.empty() && (!robot.left_wheels.empty() || !robot.right_wheels.empty()))
-    mistakes.push_back({"", 0, key_of(i, robot.left_wheels.empty() ? "right_wheels" : "left_wheels"),
-                        "only a robot from a URDF file has these", "nothing", "a list", ""});
-  if (robot.left_wheels.empty() != robot.right_wheels.empty())
-    mistakes.push_back({"", 0, key_of(i, robot.left_wheels.empty() ? "left_wheels" : "right_wheels"),
-                        "missing", "both of left_wheels and right_wheels, or neither", "one of them", ""});
+  const auto check_sides = [&](const std::string& what, const std::vector<std::string>& left, const std::vector<std::string>& right) {
+    if (robot.urdf.empty() && (!left.empty() || !right.empty()))
+      mistakes.push_back({"", 0, key_of(i, (left.empty() ? "right_" : "left_") + what),
+                          "only a robot from a URDF file has these", "nothing", "a list", ""});
+    if (left.empty() != right.empty())
+      mistakes.push_back({"", 0, key_of(i, (left.empty() ? "left_" : "right_") + what), "missing",
+                          "both of left_" + what + " and right_" + what + ", or neither", "one of them", ""});
+  };
+  check_sides("wheels", robot.left_wheels, robot.right_wheels);
+  check_sides("tracks", robot.left_tracks, robot.right_tracks);
+  if (!robot.left_wheels.empty() && !robot.left_tracks.empty())
+    mistakes.push_back({"", 0, key_of(i, "left_tracks"), "contradicts left_wheels", "one of both", "both",
+                        "wheels inside of a track do not touch the ground: leave them out"});
   if (robot.control > 0 && !robot.drive.empty())
     mistakes.push_back({"", 0, key_of(i, "drive"), "contradicts control", "one of both", "both", ""});
 }
@@ -242,6 +249,12 @@ void add_robot_keys(Schema& k, Scenario& s) {
   k.item("robots[].wheel_radius", list, &RobotItem::wheel_radius, "URDF robot: radius of these wheels.")
       .between(0.001, 10)
       .unit("m");
+  k.item("robots[].left_tracks", list, &RobotItem::left_tracks,
+         "URDF robot: links around which the left tracks run, for `linear`, `angular` and odometry.");
+  k.item("robots[].right_tracks", list, &RobotItem::right_tracks, "URDF robot: likewise on the right.");
+  k.item("robots[].track_speed", list, &RobotItem::track_speed, "URDF robot: largest speed of these tracks.")
+      .between(0.01, 20)
+      .unit("m/s");
   k.item("robots[].name", list, &RobotItem::name,
          "Name in files and topics; not given: the model and a number.");
   k.item("robots[].position", list, &RobotItem::position,

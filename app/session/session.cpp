@@ -67,12 +67,15 @@ RobotController Session::make_controller(std::size_t robot) {
 void Session::start() {
   script_ = nullptr;
   senses_ = std::make_unique<RobotSenses>(scenario_);
+  commands_.assign(robots_.size(), std::nullopt);
   sensors_.clear(), measured_.clear(), logs_.clear(), seen_.first_piece.clear();
   run_ = std::make_unique<RobotRun>(laid_, pile_, run_options_);
   for (std::size_t i = 0; i < robots_.size(); ++i)
     logs_.emplace_back(robots_[i].model, scenario_.start_ns, odometry_noise(scenario_, i));
   for (std::size_t i = 0; i < robots_.size(); ++i) {
-    const RobotController control = with_mimics(make_controller(i), robots_[i].model.mimics);
+    const RobotController own = make_controller(i);
+    const RobotController control = with_mimics(
+        [this, i, own](const RobotSense& sense) { return commands_[i] ? *commands_[i] : own(sense); }, robots_[i].model.mimics);
     run_->add(robots_[i].model, calc_base_pose(scenario_.robots[i], robots_[i]),
               [this, control, &log = logs_[i]](const RobotSense& sense) {
                 if (options_.observed || options_.recorded) log.note(sense);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/mission/resolved_mission.h"
@@ -49,6 +50,9 @@ class Session {
 
   // Instead of what the mission says, from the next start() on.
   void set_controller(std::size_t robot, RobotController controller);
+  // Instead of what its controller says, from its next control step on; nothing: as the controller says again. Joints that
+  // mimic others follow.
+  void command(std::size_t robot, std::optional<RobotCommand> command) { commands_[robot] = std::move(command); }
   // At the robots' time 0; what was before is forgotten. Throws InputError for a sensor that a function senses and no
   // robot carries, RunError where colours are sensed and there is no OpenGL.
   void start();
@@ -91,6 +95,7 @@ class Session {
   std::vector<RobotRecord> records_;
   PoseHistory history_;
   std::vector<RobotController> own_;  // none: as the mission says
+  std::vector<std::optional<RobotCommand>> commands_;
   RobotTrack seen_;                   // models and ids
   std::unique_ptr<RobotRun> run_;
   std::vector<RobotLog> logs_;

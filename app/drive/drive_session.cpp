@@ -176,7 +176,10 @@ void DriveSession::end_leg() {
 // A leg has one lamp and one air: what was driven so far is complete, and a new leg begins here.
 void DriveSession::change_lamp_and_air() {
   end_leg();
-  if (world_->robots) world_->robots->restart();  // a mission begins at its start
+  if (world_->robots) {
+    world_->robots->set_air(world_->scenario.air);
+    world_->robots->restart();  // a mission begins at its start
+  }
   world_->renderer->restart(world_->scenario.lamp, world_->scenario.air);
 }
 

@@ -45,6 +45,13 @@ SensorSite make_sensor_site(const Scenario& scenario, const SensorItem& sensor, 
   return site;
 }
 
+std::function<double(const std::vector<std::string>&, double, double)> forces_of(const RobotReadings& robots,
+                                                                                 std::size_t number) {
+  return [&robots, number](const std::vector<std::string>&, double from, double to) {
+    return robots.contacts.largest_force(robots.felt.at(number).robot, robots.felt[number].links, from, to);
+  };
+}
+
 bool needs_rays(const std::vector<SensorItem>& sensors) {
   return std::any_of(sensors.begin(), sensors.end(), [](const SensorItem& s) { return s.figures->casts_rays(); });
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/sensors/contact_history.h"
+#include "app/sensors/robot_readings.h"
 #include "render/lidar/lidar_world.h"
 #include "render/scene/sample.h"
 #include "scripting/scenario/scenario.h"
@@ -19,6 +19,9 @@ namespace rubble {
 // forces: as SensorSite::contact_force.
 SensorSite make_sensor_site(const Scenario& scenario, const SensorItem& sensor, const MotionPath& path, LidarWorld* world,
                             std::function<double(const std::vector<std::string>&, double, double)> forces = {});
+
+// Of the sensor of that number in the scenario; robots: must outlive it.
+std::function<double(const std::vector<std::string>&, double, double)> forces_of(const RobotReadings& robots, std::size_t number);
 
 // Whether any of them asks what rays meet.
 bool needs_rays(const std::vector<SensorItem>& sensors);

@@ -137,11 +137,8 @@ SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const S
     sensors_.push_back(std::move(lidar));
   for (std::size_t i = 0; i < flown.sensors.size(); ++i) {
     const Carrier& ride = flown.sensors[i].ride;
-    const auto forces = [&robots, i](const std::vector<std::string>&, double from, double to) {
-      return robots.contacts.largest_force(robots.felt.at(i).robot, robots.felt[i].links, from, to);
-    };
     sensors_.push_back(std::make_unique<ReadingSensor>(flown, int(i), begin.noise_seed, robots.end_of(ride, flown.start_ns, last_ns),
-                                                       robots.path_of(ride, flight.path), world, forces));
+                                                       robots.path_of(ride, flight.path), world, forces_of(robots, i)));
   }
   for (auto& camera : cameras) sensors_.push_back(std::move(camera));
 }

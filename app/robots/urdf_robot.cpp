@@ -181,8 +181,8 @@ class Builder {
       }
       mimic.of = led && !led->mimic ? find_joint(led->name) : -1;
       if (mimic.of < 0)
-        add(joint.line, joint.name, "mimics a joint that does not move", "another joint that moves",
-            "\"" + joint.mimic->joint + "\"");
+        warn(joint.line, "the joint `" + joint.name + "` moves by itself: `" + joint.mimic->joint +
+                             "`, which it mimics, is no joint that moves");
       else
         made_.model.mimics.push_back(mimic);
     }

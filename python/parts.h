@@ -20,6 +20,9 @@ struct SettledMission {
 // Never changed once it is made; not const, as pybind11 keeps it.
 using SharedPile = std::shared_ptr<SettledMission>;
 
+// Options of all that the module runs: no progress is printed.
+RunOptions quiet(int threads);
+
 void add_errors(pybind11::module_& module);
 void add_pile(pybind11::module_& module);
 void add_sensors(pybind11::module_& module);
@@ -30,6 +33,7 @@ void add_explorer(pybind11::module_& module);
 Intrinsics pinhole(int width, int height, double fov_deg);
 pybind11::array_t<double> camera_matrix(const Intrinsics& k);  // K, 3 by 3
 void add_robots(pybind11::module_& module);
+void add_sessions(pybind11::module_& module);
 void add_recordings(pybind11::module_& module);
 
 }  // namespace rubble::python

@@ -18,6 +18,14 @@
 #include "python/parts.h"
 
 namespace rubble::python {
+
+RunOptions quiet(int threads) {
+  RunOptions options;
+  options.quiet = true;
+  options.threads = threads;
+  return options;
+}
+
 namespace {
 
 constexpr int kGrain = 64;  // rays or points that a thread takes at once
@@ -34,13 +42,6 @@ struct Pile {
     return *made;
   }
 };
-
-RunOptions quiet(int threads) {
-  RunOptions options;
-  options.quiet = true;
-  options.threads = threads;
-  return options;
-}
 
 Pile settle(const std::string& mission, const py::object& seed, const std::vector<std::string>& overrides,
             int threads) {

@@ -12,7 +12,7 @@
 namespace rubble {
 
 RobotCommand drive_sides(const RobotModel& model, const Twist& twist, const std::vector<double>& flippers) {
-  return model.sides.belts ? drive_crawler(model, twist, flippers) : drive_wheels(model, twist);
+  return model.sides.belts ? drive_tracks(model, twist, flippers) : drive_wheels(model, twist);
 }
 
 void ask_motors(const RobotModel& model, const std::vector<double>& targets, MotorMode mode, RobotCommand& command) {
@@ -54,6 +54,8 @@ SnakeGait gait_of(const RobotLeg& leg) {
   gait.steering = steering;
   return gait;
 }
+
+bool is_snake(const RobotItem& robot) { return robot.urdf.empty() && robot.model == RobotKind::snake; }
 
 std::vector<double> in_radians(const std::vector<double>& degrees) {
   std::vector<double> angles;
@@ -148,24 +150,26 @@ std::vector<MissionRobot> make_robots(const ResolvedMission& mission, RunContext
   return made;
 }
 
+RobotCommand command_of_leg(const RobotItem& robot, const RobotModel& model, const RobotLeg& leg, double time) {
+  RobotCommand command;
+  if (model.tube) {
+    command = drive_vine(model, {leg.growth, leg.curvature, leg.curvature_up});
+  } else if (is_snake(robot)) {
+    command = calc_gait(model, gait_of(leg), time);
+  } else {
+    command = drive_sides(model, {leg.linear, leg.angular}, in_radians(leg.flippers_deg));
+  }
+  ask_leg_joints(model, leg, command);
+  return command;
+}
+
 RobotController make_leg_controller(const RobotItem& robot, const RobotModel& model) {
-  const bool snake = robot.urdf.empty() && robot.model == RobotKind::snake;
-  return [robot, model, snake](const RobotSense& sense) {
+  return [robot, &model](const RobotSense& sense) {
     RobotLeg still;
-    still.amplitude = snake ? 0 : 1;  // without legs it stands straight
+    still.amplitude = is_snake(robot) ? 0 : 1;  // without legs it stands straight
     const auto next = std::upper_bound(robot.drive.begin(), robot.drive.end(), sense.time,
                                        [](double time, const RobotLeg& leg) { return time < leg.t; });
-    const RobotLeg& now = next == robot.drive.begin() ? still : *(next - 1);
-    RobotCommand command;
-    if (model.tube) {
-      command = drive_vine(model, {now.growth, now.curvature, now.curvature_up});
-    } else if (snake) {
-      command = calc_gait(model, gait_of(now), sense.time);
-    } else {
-      command = drive_sides(model, {now.linear, now.angular}, in_radians(now.flippers_deg));
-    }
-    ask_leg_joints(model, now, command);
-    return command;
+    return command_of_leg(robot, model, next == robot.drive.begin() ? still : *(next - 1), sense.time);
   };
 }
 

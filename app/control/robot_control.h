@@ -32,7 +32,9 @@ RobotCommand drive_sides(const RobotModel& model, const Twist& twist, const std:
 // Asks the motors, which are numbered among themselves, in their order.
 void ask_motors(const RobotModel& model, const std::vector<double>& targets, MotorMode mode, RobotCommand& command);
 
-// Drives by the legs of `drive`, which are in order.
+// What a leg of `drive` asks for at that time since the start; unit: s
+RobotCommand command_of_leg(const RobotItem& robot, const RobotModel& model, const RobotLeg& leg, double time);
+// Drives by the legs of `drive`, which are in order. The model must outlive it.
 RobotController make_leg_controller(const RobotItem& robot, const RobotModel& model);
 
 // Joints that mimic others follow them: what those are asked for, or where they stand.

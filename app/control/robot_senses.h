@@ -1,64 +1,43 @@
-// What the functions that drive robots are told of LiDARs, cameras and inertial units: measured while the robots are
-// driven.
+// What the functions that drive robots are told of sensors: who gets which sample.
 #pragma once
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
-#include "app/mission/resolved_mission.h"
-#include "app/robots/live_colours.h"
-#include "app/robots/live_imus.h"
-#include "app/robots/live_ranges.h"
-#include "app/robots/mission_robot.h"
-#include "app/scene/moving_scene.h"
-#include "app/support/run_context.h"
-#include "kernel/model/pile_state.h"
-#include "kernel/robot/robot_run.h"
+#include "render/scene/sample.h"
+#include "scripting/scenario/scenario.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
 
+// Whether the function of any robot is told of the sensor of that name: of a camera its depth, by colour_sense() its colours.
+bool is_sensed(const Scenario& scenario, const std::string& name);
+
 class RobotSenses {
  public:
-  // Measures what `senses` of the mission's robots name. All of these must outlive it. Throws InputError for a sensor
-  // that no robot carries.
-  RobotSenses(const ResolvedMission& mission, const PileState& pile, const std::vector<MissionRobot>& robots,
-              RunContext& context);
+  // scenario: must outlive this.
+  explicit RobotSenses(const Scenario& scenario);
 
-  // Once all robots are added, before the first step. step: unit: s. Throws InputError for depth of a camera with a
-  // lens, RunError where colours are asked for and there is no OpenGL.
-  void begin(const RobotRun& run, double step);
-  void note_step(const World& world);  // after each step
-  // Adds `lidars`, `cameras`, `images` and `imus` to what the robot's function is told: what was measured since its
-  // last call.
+  // Numbers of the sensors that `senses` of any robot names.
+  struct Sensed {
+    std::vector<std::size_t> lidars, readings, depths, colours, imus;
+  };
+  Sensed sensed() const;
+
+  // A frame has depth, or colours.
+  void hear(const Sample& sample);
+  // Adds `lidars`, `cameras`, `images`, `imus` and `sensors` to what the robot's function is told: what was heard since its last
+  // call.
   void tell(std::size_t robot, Value& told);
 
  private:
-  // What a robot has not been told yet.
-  struct Untold {
-    std::vector<std::shared_ptr<const LidarScan>> scans;
-    std::vector<std::shared_ptr<const SensedDepth>> depths;
-    std::vector<std::shared_ptr<const SensedColours>> colours;
-    std::vector<ImuSample> readings;
-  };
-  bool senses(std::size_t robot, const std::string& name) const;
-  bool sensed(const std::string& name) const;  // by any robot
-  // While it measures, `measurer` says where things are; before, the world.
-  template <typename Measurer>
-  Scene build_scene(const World& world, const std::unique_ptr<Measurer>& measurer) const;
-  void measure();
+  std::string sense_of(const Sample& sample) const;
 
-  const ResolvedMission& mission_;
-  const PileState& pile_;
-  RunContext& context_;
+  const Scenario& scenario_;
   std::vector<std::string> camera_names_, imu_names_;
-  std::vector<RidingSensor> lidars_, depth_cameras_, colour_cameras_, imus_;  // that any robot senses
-  std::vector<Untold> untold_;  // by robot
-  RobotTrack seen_;             // models and ids
-  std::unique_ptr<LiveRanges> ranges_;
-  std::unique_ptr<LiveImus> readings_;
-  std::unique_ptr<LiveColours> colours_;  // none: no robot senses colours
+  std::vector<std::vector<std::shared_ptr<const Sample>>> untold_;  // by robot
 };
 
 }  // namespace rubble

@@ -70,8 +70,8 @@ Value call(LuaSandbox& sandbox, int control, const Value& told) {
 }  // namespace
 
 struct ScriptControl::State {
-  State(const ResolvedMission& m, RobotSenses& s, const SourceFile& script)
-      : mission(m), senses(s), lines(script.text, "mission"), sandbox(m.scenario.seed, "rubble.mission") {
+  State(const ResolvedMission& m, Tell t, const SourceFile& script)
+      : mission(m), tell(std::move(t)), lines(script.text, "mission"), sandbox(m.scenario.seed, "rubble.mission") {
     std::map<std::string, std::string> included;
     for (const SourceFile& file : m.provenance.included) included[file.path] = file.text;
     sandbox.serve_includes(included);
@@ -80,13 +80,13 @@ struct ScriptControl::State {
     sandbox.take_printed();  // that was shown when the mission was loaded
   }
   const ResolvedMission& mission;
-  RobotSenses& senses;
+  Tell tell;
   SourceMap lines;
   LuaSandbox sandbox;
 };
 
-ScriptControl::ScriptControl(const ResolvedMission& mission, RobotSenses& senses)
-    : state_(std::make_unique<State>(mission, senses, mission.provenance.script)) {}
+ScriptControl::ScriptControl(const ResolvedMission& mission, Tell tell)
+    : state_(std::make_unique<State>(mission, std::move(tell), mission.provenance.script)) {}
 ScriptControl::~ScriptControl() = default;
 
 RobotController ScriptControl::controller_of(std::size_t robot, const RobotModel& model) {
@@ -99,7 +99,7 @@ RobotController ScriptControl::controller_of(std::size_t robot, const RobotModel
              const RobotSense& sense) mutable {
     Value told = describe_sense(sense, model, gravity, last, last_time);
     if (wheels) told.set("odometry", describe_odometry(wheels->update(sense.state, sense.time)));
-    if (!item.senses.empty()) state.senses.tell(robot, told);
+    if (!item.senses.empty()) state.tell(robot, told);
     const Value answer = call(state.sandbox, item.control, told);
     Wish wish;
     std::vector<Diagnostic> mistakes;

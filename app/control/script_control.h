@@ -1,20 +1,23 @@
 // Functions of a script as controllers of robots.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 
-#include "app/control/robot_senses.h"
 #include "app/mission/resolved_mission.h"
 #include "kernel/model/robot.h"
 #include "kernel/robot/robot_run.h"
+#include "scripting/values/value.h"
 
 namespace rubble {
 
 // Drives by functions of the script, which is run again: in the sandbox, by what its provenance keeps.
 class ScriptControl {
  public:
-  // senses: what the functions are told of LiDARs and cameras; must outlive the controllers.
-  ScriptControl(const ResolvedMission& mission, RobotSenses& senses);
+  // Adds what the function of a robot with `senses` is told of its sensors.
+  using Tell = std::function<void(std::size_t robot, Value& told)>;
+  ScriptControl(const ResolvedMission& mission, Tell tell);
   ~ScriptControl();
   ScriptControl(const ScriptControl&) = delete;
   ScriptControl& operator=(const ScriptControl&) = delete;

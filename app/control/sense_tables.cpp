@@ -138,37 +138,48 @@ Value describe_scan(const LidarScan& scan, const LidarSpec& spec, std::int64_t s
   return table;
 }
 
-Value describe_depth(const SensedDepth& image, std::int64_t start_ns) {
-  Value depth = Value::make_table();
-  depth.items.reserve(image.depth.size());
-  for (const float d : image.depth) depth.items.push_back(Value::make_number(d));
+namespace {
+
+// Of a picture, without its pixels.
+Value describe_frame(const Frame& frame, std::int64_t start_ns) {
   Value table = Value::make_table();
-  table.set("t", describe_stamp(image.stamp_ns, start_ns));
-  table.set("width", Value::make_integer(image.width));
-  table.set("height", Value::make_integer(image.height));
+  table.set("t", describe_stamp(frame.stamp_ns, start_ns));
+  table.set("width", Value::make_integer(frame.intrinsics.width));
+  table.set("height", Value::make_integer(frame.intrinsics.height));
+  return table;
+}
+
+}  // namespace
+
+Value describe_reading(const ImuSample& reading, std::int64_t start_ns) {
+  Value table = Value::make_table();
+  table.set("t", describe_stamp(reading.stamp_ns, start_ns));
+  table.set("gyroscope", vector_value(reading.angular_velocity));
+  table.set("accelerometer", vector_value(reading.linear_acceleration));
+  return table;
+}
+
+Value describe_values(const Reading& reading, const SensorItem& sensor, std::int64_t start_ns) {
+  Value table = Value::make_table();
+  table.set("t", describe_stamp(reading.stamp_ns, start_ns));
+  const std::vector<ReadingColumn> columns = sensor.figures->columns();
+  for (std::size_t i = 0; i < columns.size(); ++i) table.set(columns[i].name, Value::make_number(reading.values[i]));
+  return table;
+}
+
+Value describe_depth(const Frame& frame, std::int64_t start_ns) {
+  Value depth = Value::make_table();
+  depth.items.reserve(frame.depth.size());
+  for (const float d : frame.depth)
+    depth.items.push_back(Value::make_number(std::isnan(d) ? std::numeric_limits<double>::infinity() : double(d)));
+  Value table = describe_frame(frame, start_ns);
   table.set("depth", std::move(depth));
   return table;
 }
 
-Value describe_readings(const std::vector<ImuSample>& readings, int unit, std::int64_t start_ns) {
-  Value list = Value::make_table();
-  for (const ImuSample& reading : readings) {
-    if (reading.sensor != unit) continue;
-    Value table = Value::make_table();
-    table.set("t", describe_stamp(reading.stamp_ns, start_ns));
-    table.set("gyroscope", vector_value(reading.angular_velocity));
-    table.set("accelerometer", vector_value(reading.linear_acceleration));
-    list.items.push_back(std::move(table));
-  }
-  return list;
-}
-
-Value describe_colours(const SensedColours& image, std::int64_t start_ns) {
-  Value table = Value::make_table();
-  table.set("t", describe_stamp(image.stamp_ns, start_ns));
-  table.set("width", Value::make_integer(image.width));
-  table.set("height", Value::make_integer(image.height));
-  table.set("rgb", Value::make_text(std::string(image.rgb.begin(), image.rgb.end())));
+Value describe_colours(const Frame& frame, std::int64_t start_ns) {
+  Value table = describe_frame(frame, start_ns);
+  table.set("rgb", Value::make_text(std::string(frame.rgb.begin(), frame.rgb.end())));
   return table;
 }
 

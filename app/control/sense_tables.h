@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/robots/live_colours.h"
-#include "app/robots/live_ranges.h"
 #include "kernel/model/robot.h"
 #include "kernel/robot/odometry.h"
 #include "kernel/robot/robot_run.h"
 #include "render/scene/frame.h"
 #include "render/scene/lidar_scan.h"
 #include "render/scene/lidar_spec.h"
+#include "render/scene/reading.h"
+#include "scripting/sensors/sensor_item.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
@@ -22,9 +22,11 @@ Value describe_sense(const RobotSense& sense, const RobotModel& model, double gr
 Value describe_odometry(const OdometryReading& reading);
 // start_ns: the stamp of the robots' time 0.
 Value describe_scan(const LidarScan& scan, const LidarSpec& spec, std::int64_t start_ns);
-Value describe_depth(const SensedDepth& image, std::int64_t start_ns);
-// Those of one unit, by its number among all_imus().
-Value describe_readings(const std::vector<ImuSample>& readings, int unit, std::int64_t start_ns);
-Value describe_colours(const SensedColours& image, std::int64_t start_ns);
+Value describe_reading(const ImuSample& reading, std::int64_t start_ns);
+// By the columns of its kind.
+Value describe_values(const Reading& reading, const SensorItem& sensor, std::int64_t start_ns);
+// The depth of a frame, and its colours.
+Value describe_depth(const Frame& frame, std::int64_t start_ns);
+Value describe_colours(const Frame& frame, std::int64_t start_ns);
 
 }  // namespace rubble

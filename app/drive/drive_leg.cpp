@@ -96,7 +96,7 @@ void DriveLeg::save() {
 void DriveLeg::finish() {
   pass_on();
   save();
-  if (world_.robots) return save_track(world_.robots->finish().track, folder_ + "/" + name_ + ".track");
+  if (world_.robots) return save_track(world_.robots->finish(), folder_ + "/" + name_ + ".track");
   const FrameHashes hashes = hashes_.compact();
   std::string text;
   for (const std::string& channel : hashes.channels) text += (text.empty() ? "" : " ") + channel;

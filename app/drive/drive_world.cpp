@@ -76,10 +76,8 @@ void enter_robots(const DriveRequest& request, const ResolvedMission& mission, R
   if (request.record)
     throw InputError({"", 0, "--record", "nothing is recorded while a robot is driven", "", "",
                       "run the mission of the drive with `rubble run`; it records everything"});
-  world.mission = std::make_unique<ResolvedMission>(mission);
-  world.robots = with_lines_of_script(mission, [&] {
-    return std::make_unique<RobotDrive>(*world.mission, world.pile, request.robot, run);
-  });
+  world.robots = with_lines_of_script(
+      mission, [&] { return std::make_unique<RobotDrive>(mission, world.pile, request.robot, run); });
   world.plan = Plan::ghost;
   world.entry = make_driven_pose(world.robots->world_from_rig());
 }
@@ -101,10 +99,11 @@ std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
                                              const GoOn& go_on) {
   RunRequest of = request.of;
   if (seed) of.seed = seed;
-  RunContext run(of.options);
+  auto world = std::make_unique<DriveWorld>();
+  world->run = std::make_unique<RunContext>(of.options);
+  RunContext& run = *world->run;
   ResolvedMission mission = resolve_mission(of, RunKind::run, run);
   refuse_several_cameras(mission);
-  auto world = std::make_unique<DriveWorld>();
   world->threads = run.threads();
   world->pile = settle_in_memory(mission, run, go_on).state;
   world->assets = mission.assets;
@@ -131,8 +130,6 @@ std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
     run.progress.update(fraction, "light");
     go_on();
   });
-  const bool told = of.options.live.ros1 || of.options.live.ros2;
-  if (world->robots && told) world->robots->sense(scene, world->renderer->medium());
   run.progress.finish("ready on " + context.info().renderer);
   return world;
 }

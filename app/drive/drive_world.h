@@ -18,11 +18,11 @@ struct DriveWorld {
   Plan plan = Plan::ghost;             // whether the camera collides
   AssetLibrary assets;                 // of the mission
   PileState pile;                      // settled
+  std::unique_ptr<RunContext> run;     // of the robots
   DrivenPose entry;                    // the first waypoint of the mission
   DriveLimits limits;                  // the mission's speed limits, where it has any
   std::unique_ptr<PileSurvey> survey;  // of that pile
-  std::unique_ptr<ResolvedMission> mission;  // of the robots; none: the camera flies
-  std::unique_ptr<RobotDrive> robots;  // driven instead of the camera
+  std::unique_ptr<RobotDrive> robots;  // driven instead of the camera; none: it flies
   std::unique_ptr<Renderer> renderer;  // of the scene, lit
   int threads = 1;                     // at least 1
 

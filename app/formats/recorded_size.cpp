@@ -42,9 +42,16 @@ void count_scans(const Scenario& s, double duration, FlightSize& size) {
   }
 }
 
-// Of all together; unit: Hz
+double rate_of_readings(const Scenario& s) {
+  double rate = 0;
+  for (const SensorItem& sensor : s.sensors) rate += sensor.rate_hz;
+  return rate;
+}
+
+// Of all together, and of the messages of other sensors, none of which is larger; unit: Hz
 double rate_of_imus(const Scenario& s) {
   double rate = 0;
+  for (const SensorItem& sensor : s.sensors) rate += sensor.rate_hz * double(sensor.figures->topics().size());
   for (const ImuScenario& imu : all_imus(s)) rate += imu.model.rate_hz;
   return rate;
 }
@@ -80,6 +87,7 @@ FlightSize size_of_flight(const Scenario& s, std::size_t camera) {
   }
   const double imu_rate = camera == 0 ? rate_of_imus(s) : 0;
   size.imu_samples = size.frames * imu_rate / path.rate_hz;
+  if (camera == 0) size.readings = size.frames * rate_of_readings(s) / path.rate_hz;
   if (camera == 0) count_scans(s, size.frames / path.rate_hz, size);
   if (!s.record_settling.on) return size;
   size.frames += frames_of_settling(s, all_cameras(s)[camera]);

@@ -14,9 +14,9 @@ constexpr double kPictureOverhead = 2048;  // of a file and its line in a list; 
 // What is recorded of a flight: counts.
 struct FlightSize {
   // At most; a mean where the pile decides. points: of LiDARs, with all their returns.
-  double frames = 0, key_frames = 0, imu_samples = 0, scans = 0, points = 0;
+  double frames = 0, key_frames = 0, imu_samples = 0, scans = 0, points = 0, readings = 0;
 };
-// Of one of its cameras; inertial unit and LiDARs are counted with the first.
+// Of one of its cameras; other sensors are counted with the first.
 FlightSize size_of_flight(const Scenario& scenario, std::size_t camera);
 
 // Bytes of a frame's pixels in each kind of recording, apart from what is kept once.

@@ -6,6 +6,7 @@
 #include "io/datasets/euroc_recorder.h"
 #include "io/datasets/frames_recorder.h"
 #include "io/datasets/lidar_recorder.h"
+#include "io/datasets/reading_recorder.h"
 #include "io/datasets/tum_recorder.h"
 #include "io/mrpt/rawlog_recorder.h"
 #include "io/mrpt/simplemap_recorder.h"
@@ -114,6 +115,9 @@ const std::vector<RecordingFormat> kFormats{
     {"kitti", "kitti", true, &OutputScenario::kitti,
      [](Path p, In in) -> Made { return make_kitti_recorder(p, in.recording); },
      [](Size s) { return size_of_scans(s.flight, kPictureOverhead, 16); }},
+    {"sensors", "sensors", true, &OutputScenario::sensors,
+     [](Path p, In in) -> Made { return make_reading_recorder(p, in.recording); },
+     [](Size s) { return s.flight.readings * 200; }, false, true},
     {"preview", "preview.png", false, &OutputScenario::preview,
      [](Path p, In in) -> Made {
        return make_contact_sheet_recorder(p, sheet_options(in));
@@ -124,6 +128,10 @@ const std::vector<RecordingFormat> kFormats{
 }  // namespace
 
 const std::vector<RecordingFormat>& recording_formats() { return kFormats; }
+
+bool is_wanted(const RecordingFormat& format, const Scenario& scenario) {
+  return scenario.outputs.*format.wanted && !(format.of_sensors && scenario.sensors.empty());
+}
 
 RosOptions ros_options(const OutputScenario& outputs, const Recording& recording) {
   RosOptions ros;

@@ -34,7 +34,11 @@ struct RecordingFormat {
   std::unique_ptr<Recorder> (*make)(const std::string& path, const RecordingInputs& inputs);
   double (*estimate)(const RecordedSize& size);  // largest size for one camera; unit: byte
   bool one_camera = false;                       // whether it holds a single camera
+  bool of_sensors = false;                       // whether it is only there where the mission has `sensors`
 };
+
+// Whether the scenario asks for it.
+bool is_wanted(const RecordingFormat& format, const Scenario& scenario);
 
 // In the order in which they receive a frame. docs/development/contributing.md describes how to add one.
 const std::vector<RecordingFormat>& recording_formats();

@@ -136,7 +136,7 @@ class Drive {
     if (output.state == NavigatorState::gave_up) end_ = NavigationEnd::gave_up;
     if (output.state == NavigatorState::arrived) end_ = NavigationEnd::arrived;
     score_.way.push_back({base, yaw_of(sense.state.links.front().world_from_link), pilot_.target()});
-    return drive_crawler(model_, {output.linear, output.angular / kTurnShare},
+    return drive_tracks(model_, {output.linear, output.angular / kTurnShare},
                          std::vector<double>(4, kFlippers));
   }
 

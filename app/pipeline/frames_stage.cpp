@@ -1,7 +1,9 @@
 // The stage from a planned flight over a settled pile to recorded frames.
 #include <filesystem>
 #include <memory>
+#include <optional>
 
+#include "app/control/robot_senses.h"
 #include "app/measures/frame_watch.h"
 #include "app/pipeline/legs.h"
 #include "app/pipeline/live.h"
@@ -9,6 +11,8 @@
 #include "app/pipeline/stages.h"
 #include "app/provenance/frame_journal.h"
 #include "app/scene/build_scene.h"
+#include "app/sensors/exact_depth.h"
+#include "app/sensors/reading_sensor.h"
 #include "app/sensors/sensor_suite.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
@@ -61,6 +65,12 @@ std::vector<std::string> names_of_lidars(const Scenario& scenario) {
   return names;
 }
 
+std::vector<std::string> names_of_sensors(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const SensorItem& sensor : scenario.sensors) names.push_back(sensor.name);
+  return names;
+}
+
 // Which frame of a leg is being taken, and of how many: an image that takes minutes reports on its way.
 struct Taking {
   int frame = 0, frames = 1;
@@ -79,41 +89,6 @@ struct FrameSinks {
   FrameWatch watch;
   int frames = 0;  // so far
 };
-
-// Takes every sample of a leg in order, notes the hashes of frames, and hands it to the recorders.
-void take_samples(SensorSuite& sensors, const Leg& leg, FrameSinks& sinks, const RunFolder& folder,
-                  RunContext& context, Taking& taking, RecordedFrames& recorded) {
-  taking.frame = 0;
-  taking.frames = sensors.count_frames();
-  std::vector<std::string> carriers;
-  for (const MountedCamera& camera : all_cameras(leg.scenario))
-    carriers.push_back(camera.ride.on() ? camera.ride.robot + "/" + camera.ride.link : "");
-  DepthMetrics depth(std::move(carriers));
-  throw_if_stopped(folder.path());
-  while (std::optional<Sample> sample = sensors.take()) {
-    if (const auto* reading = std::get_if<ImuSample>(&*sample)) {
-      recorded.hashes.add_imu(*reading);
-    } else if (const auto* robot = std::get_if<RobotSample>(&*sample)) {
-      recorded.hashes.add_robot(*robot);
-    } else if (const auto* scan = std::get_if<LidarScan>(&*sample)) {
-      recorded.hashes.add_lidar(*scan);
-      throw_if_stopped(folder.path());
-    } else {
-      const Frame& frame = std::get<Frame>(*sample);
-      recorded.hashes.add(frame);
-      sinks.journal.note(std::size_t(sinks.frames++), recorded.hashes.frames.back());
-      depth.add(frame);
-      if (sinks.watch.notice(frame)) context.warnings.push_back(sinks.watch.warning());
-      ++taking.frame;
-      context.progress.update(double(taking.frame) / taking.frames,
-                              "frame " + std::to_string(taking.frame) + " of " +
-                                  std::to_string(taking.frames));
-      throw_if_stopped(folder.path());
-    }
-    sinks.queue.push(*std::move(sample));
-  }
-  if (!leg.window) depth.add_to(recorded.metrics);
-}
 
 RenderOptions render_options(const Scenario& scenario, int threads,
                              const std::function<void(double)>& on_image) {
@@ -135,7 +110,24 @@ struct Seen {
 struct PreparedLeg {
   std::unique_ptr<Renderer> renderer;
   std::unique_ptr<SensorSuite> sensors;
+  std::vector<std::unique_ptr<ExactDepth>> depths;  // by camera; none: as it is drawn
 };
+
+// The scene as sensors have it while the robots are driven, when nobody knows what will move.
+Scene build_felt_scene(const Leg& leg, const ResolvedMission& mission, const Seen& seen) {
+  const Track& track = seen.robots.moved.track;
+  return build_live_scene(leg.scenario, mission.assets, seen.pile.state, seen.robots.moved,
+                          [&track, start = leg.scenario.start_ns](int id, std::int64_t stamp_ns) {
+                            return pose_in_track(track, id, stamp_ns - start);
+                          });
+}
+
+// What a function is told of colours is drawn while the robot is driven: the recorded pictures are lit in the same way.
+bool senses_colours(const Scenario& scenario) {
+  for (const MountedCamera& camera : all_cameras(scenario))
+    if (is_sensed(scenario, colour_sense(camera.name))) return true;
+  return false;
+}
 
 Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen& seen) {
   const PileState& pile = seen.pile.state;
@@ -144,8 +136,24 @@ Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen
                               leg.zero_ns);
   }
   if (seen.robots.moved.empty()) return build_scene(leg.scenario, mission.assets, pile);
+  if (senses_colours(leg.scenario)) return build_felt_scene(leg, mission, seen);
   return build_robot_scene(leg.scenario, mission.assets, pile, seen.robots.moved,
                            leg.scenario.start_ns);
+}
+
+// What a function is told of depth is measured by rays: the recorded frames of its camera have the same.
+std::vector<std::unique_ptr<ExactDepth>> make_told_depths(const Leg& leg, const ResolvedMission& mission, const Seen& seen,
+                                                          int threads) {
+  const std::vector<MountedCamera> cameras = all_cameras(leg.scenario);
+  std::vector<std::unique_ptr<ExactDepth>> depths(cameras.size());
+  std::shared_ptr<LidarWorld> world;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    // Rows of a shutter are drawn each at its own time.
+    if (!is_sensed(leg.scenario, cameras[i].name) || cameras[i].camera.shutter.readout > 0) continue;
+    if (!world) world = std::make_shared<LidarWorld>(build_felt_scene(leg, mission, seen));
+    depths[i] = std::make_unique<ExactDepth>(cameras[i], camera_key(leg.scenario, cameras[i]), world, threads);
+  }
+  return depths;
 }
 
 PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Seen& seen,
@@ -158,11 +166,55 @@ PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Se
       scene, leg.scenario, gl, context.threads(),
       [&](double fraction) { context.progress.update(fraction, "light"); },
       [&](double fraction) { taking.report(fraction, folder, context); });
+  const bool felt = !leg.window && !seen.robots.moved.empty();
+  std::optional<Scene> felt_scene;
+  if (felt && (!leg.scenario.lidars.empty() || needs_rays(leg.scenario.sensors))) felt_scene = build_felt_scene(leg, mission, seen);
   prepared.sensors = std::make_unique<SensorSuite>(
-      leg.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before}, scene, *prepared.renderer,
-      context.threads(), seen.robots.readings);
+      leg.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before}, felt_scene ? *felt_scene : scene,
+      *prepared.renderer, context.threads(), seen.robots.readings);
+  if (felt) prepared.depths = make_told_depths(leg, mission, seen, context.threads());
   context.progress.finish("ready on " + gl.info().renderer);
   return prepared;
+}
+
+// Takes every sample of a leg in order, notes the hashes of frames, and hands it to the recorders.
+void take_samples(PreparedLeg& prepared, const Leg& leg, FrameSinks& sinks, const RunFolder& folder,
+                  RunContext& context, Taking& taking, RecordedFrames& recorded) {
+  SensorSuite& sensors = *prepared.sensors;
+  taking.frame = 0;
+  taking.frames = sensors.count_frames();
+  std::vector<std::string> carriers;
+  for (const MountedCamera& camera : all_cameras(leg.scenario))
+    carriers.push_back(camera.ride.on() ? camera.ride.robot + "/" + camera.ride.link : "");
+  DepthMetrics depth(std::move(carriers));
+  throw_if_stopped(folder.path());
+  while (std::optional<Sample> sample = sensors.take()) {
+    if (const auto* reading = std::get_if<ImuSample>(&*sample)) {
+      recorded.hashes.add_imu(*reading);
+    } else if (const auto* robot = std::get_if<RobotSample>(&*sample)) {
+      recorded.hashes.add_robot(*robot);
+    } else if (const auto* values = std::get_if<Reading>(&*sample)) {
+      recorded.hashes.add_reading(*values);
+    } else if (const auto* scan = std::get_if<LidarScan>(&*sample)) {
+      recorded.hashes.add_lidar(*scan);
+      throw_if_stopped(folder.path());
+    } else {
+      Frame& frame = std::get<Frame>(*sample);
+      if (!prepared.depths.empty() && prepared.depths[std::size_t(frame.sensor)])
+        frame.depth = prepared.depths[std::size_t(frame.sensor)]->measure(frame.stamp_ns, frame.world_from_camera);
+      recorded.hashes.add(frame);
+      sinks.journal.note(std::size_t(sinks.frames++), recorded.hashes.frames.back());
+      depth.add(frame);
+      if (sinks.watch.notice(frame)) context.warnings.push_back(sinks.watch.warning());
+      ++taking.frame;
+      context.progress.update(double(taking.frame) / taking.frames,
+                              "frame " + std::to_string(taking.frame) + " of " +
+                                  std::to_string(taking.frames));
+      throw_if_stopped(folder.path());
+    }
+    sinks.queue.push(*std::move(sample));
+  }
+  if (!leg.window) depth.add_to(recorded.metrics);
 }
 
 // Of each camera, over the first so many legs.
@@ -213,7 +265,7 @@ void record(const PlannedFlight& flight, const ResolvedMission& mission, const S
       prepared = prepare_leg(legs[i], mission, seen, count_frames(legs, i), gl, folder, context, taking);
     }
     context.progress.start(legs[i].window ? "settling frames" : "render");
-    take_samples(*prepared.sensors, legs[i], sinks, folder, context, taking, recorded);
+    take_samples(prepared, legs[i], sinks, folder, context, taking, recorded);
     context.progress.finish(std::to_string(prepared.sensors->count_frames()) + " frames");
   }
   finish_recording(mission, set, queue, folder, context);
@@ -233,7 +285,7 @@ RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& 
                              RunFolder& folder, RunContext& context) {
   GlContext gl({context.options.gl_device, context.threads()});
   RecordedFrames recorded;
-  recorded.hashes = FrameHashes(names_of_cameras(flight.flown), names_of_lidars(flight.flown));
+  recorded.hashes = FrameHashes(names_of_cameras(flight.flown), names_of_lidars(flight.flown), names_of_sensors(flight.flown));
   recorded.environment = describe_environment(gl.info(), context.threads());
   record(flight, mission, {pile, robots}, gl, folder, context, recorded);
   return recorded;

@@ -81,7 +81,7 @@ void add_recorders_of_cameras(const RecordingInputs& inputs, const std::string& 
     if (!inputs.frames.empty()) of_camera.frames = {inputs.frames[i]};
     of_camera.camera = i;
     for (const RecordingFormat& format : recording_formats()) {
-      if (!format.one_camera || !(inputs.scenario.outputs.*format.wanted)) continue;
+      if (!format.one_camera || !is_wanted(format, inputs.scenario)) continue;
       make_folder_below(folder, kCamerasFolder + ("/" + alone.cameras.front().name));
       set.recorders.push_back(
           make_one_camera_recorder(int(i), find_imu_beside(inputs.recording, i), format.make(own + "/" + format.leaves, of_camera)));
@@ -114,6 +114,9 @@ Recording describe_recording(const Scenario& scenario, const AssetLibrary& asset
     recording.lidars.push_back(record_of(scenario, i));
     recording.lidars.back().carrier = frame_of(scenario.lidars[i].ride, scenario, robots);
   }
+  for (const SensorItem& sensor : scenario.sensors)
+    recording.sensors.push_back({sensor.name, sensor.ros_topic(), sensor.frame(), frame_of(sensor.ride, scenario, robots),
+                                 sensor.carrier_from_sensor(), sensor.figures->clone()});
   recording.legend.labels = label_names(scenario, assets);
   for (const PieceState& piece : pile.pieces) {
     const auto type = std::size_t(piece.type);
@@ -129,7 +132,7 @@ RecorderSet make_recorders(const RecordingInputs& inputs, const std::string& fol
   RecorderSet set;
   const bool several = !inputs.scenario.cameras.empty();
   for (const RecordingFormat& format : recording_formats()) {
-    if (!(inputs.scenario.outputs.*format.wanted) || (several && format.one_camera)) continue;
+    if (!is_wanted(format, inputs.scenario) || (several && format.one_camera)) continue;
     const std::string path = folder + "/" + format.leaves;
     remove_folder_of_killed_run(path);
     set.names.push_back(format.leaves);

@@ -26,9 +26,7 @@
 #include "app/pipeline/legs.h"
 #include "app/planning/pile_survey.h"
 #include "app/provenance/frame_hashes.h"
-#include "app/scene/moving_scene.h"
-#include "app/sensors/robot_readings.h"
-#include "io/recording/recording.h"
+#include "app/session/driven_robots.h"
 #include "kernel/model/pile_state.h"
 #include "kernel/model/track.h"
 #include "render/renderer.h"
@@ -39,15 +37,6 @@ struct SettledPile {
   PileState state;  // settled, or the state at the time limit
   Track track;      // motion of the pieces; empty if the mission does not request it
   Metrics metrics;  // of the pile
-};
-
-// Results of the robots of a mission; empty without robots.
-struct DrivenRobots {
-  RobotTrack moved;                  // motion of the robots and of the pieces that they moved
-  RobotReadings readings;            // of their sensors, and the path of a rig on a robot
-  std::vector<RobotRecord> records;  // for recorders
-  std::optional<RigMount> mount;     // for recorders
-  Metrics metrics;                   // robot_distance_m and so on
 };
 
 // The mission with its resolved path, and its legs, each with the stamps and poses of all cameras.

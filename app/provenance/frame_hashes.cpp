@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <sstream>
 
 #include "kernel/base/hash_pose.h"
@@ -89,6 +91,13 @@ std::uint64_t hash_scan(const LidarScan& scan) {
   return hash.digest();
 }
 
+std::uint64_t hash_reading(const Reading& reading) {
+  StateHash hash;
+  hash.add(reading.stamp_ns);
+  for (const double value : reading.values) hash.add(std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value);
+  return hash.digest();
+}
+
 // Of one camera: the pose, every image stream in the order of the table, then what is no image.
 std::vector<std::string> channels_of_camera() {
   std::vector<std::string> names{"pose"};
@@ -98,13 +107,14 @@ std::vector<std::string> channels_of_camera() {
 }
 
 std::vector<std::string> channels_of_sensors(const std::vector<std::string>& cameras,
-                                             const std::vector<std::string>& lidars) {
+                                             const std::vector<std::string>& lidars, const std::vector<std::string>& sensors) {
   const std::vector<std::string> each = channels_of_camera();
   std::vector<std::string> all;
   if (cameras.empty()) all = each;
   for (const std::string& camera : cameras)
     for (const std::string& channel : each) all.push_back(camera + "/" + channel);
   for (const std::string& lidar : lidars) all.push_back(lidar + "/points");
+  for (const std::string& sensor : sensors) all.push_back(sensor + "/reading");
   for (const char* rig : kOfAllCameras) all.push_back(rig);
   return all;
 }
@@ -116,8 +126,8 @@ std::string without_camera(const std::string& channel) {
 }  // namespace
 
 void FrameHashes::add(const Frame& f) {
-  if (channels.empty()) channels = channels_of_sensors(cameras_, lidars_);
-  const std::size_t others = lidars_.size() + std::size(kOfAllCameras);
+  if (channels.empty()) channels = channels_of_sensors(cameras_, lidars_, sensors_);
+  const std::size_t others = lidars_.size() + sensors_.size() + std::size(kOfAllCameras);
   const std::size_t each = (channels.size() - others) / std::max<std::size_t>(1, cameras_.size());
   std::vector<std::uint64_t>& row = frames.emplace_back(channels.size(), 0);
   auto at = row.begin() + std::ptrdiff_t(std::size_t(f.sensor) * each);
@@ -131,6 +141,10 @@ void FrameHashes::add(const Frame& f) {
     row[row.size() - others + i] = hash_numbers(scans_[i]);
     scans_[i].clear();
   }
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    row[row.size() - others + lidars_.size() + i] = hash_numbers(values_[i]);
+    values_[i].clear();
+  }
   row[row.size() - 2] = hash_imu(readings_);
   row.back() = hash_robots(robots_);
   readings_.clear();
@@ -142,6 +156,10 @@ void FrameHashes::add_robot(const RobotSample& sample) { robots_.push_back(sampl
 
 void FrameHashes::add_lidar(const LidarScan& scan) {
   scans_.at(std::size_t(scan.sensor)).push_back(hash_scan(scan));
+}
+
+void FrameHashes::add_reading(const Reading& reading) {
+  values_.at(std::size_t(reading.sensor)).push_back(hash_reading(reading));
 }
 
 FrameHashes FrameHashes::compact() const {
@@ -159,7 +177,7 @@ FrameHashes FrameHashes::compact() const {
 
 bool is_picture(const std::string& channel) {
   const std::string name = without_camera(channel);
-  return name != "pose" && name != "events" && name != "points" &&
+  return name != "pose" && name != "events" && name != "points" && name != "reading" &&
          std::find(std::begin(kOfAllCameras), std::end(kOfAllCameras), name) == std::end(kOfAllCameras);
 }
 

@@ -136,23 +136,24 @@ std::vector<std::string> robot_file_names(const std::vector<std::string>& robots
 }
 
 void write_robot_files(const std::string& folder, const std::vector<std::string>& names,
-                       const std::vector<RobotModel>& models, const RobotRunResult& result,
+                       const RobotTrack& moved, const std::vector<RobotSummary>& summaries, int pieces_moved,
                        const std::vector<RobotLog>& logs, std::int64_t start_ns) {
+  const std::vector<RobotModel>& models = moved.models;
   make_folder_below(folder, "robots");
-  save_track(result.track, folder + "/robots/track.bin");
+  save_track(moved.track, folder + "/robots/track.bin");
   Json list = Json::array();
   for (std::size_t i = 0; i < models.size(); ++i) {
     const std::string path = folder + "/robots/" + names[i];
-    list.push_back(describe_robot(names[i], models[i], result.first_piece[i], result.robots[i]));
-    const int lead = result.first_piece[i] + int(models[i].lead());
+    list.push_back(describe_robot(names[i], models[i], moved.first_piece[i], summaries[i]));
+    const int lead = moved.first_piece[i] + int(models[i].lead());
     const std::string frame = models[i].tube ? "the frame of the tip" : "the base frame";
-    write_text_file(path + ".txt", trajectory_text(result.track, frame, lead, start_ns));
+    write_text_file(path + ".txt", trajectory_text(moved.track, frame, lead, start_ns));
     write_text_file(path + "_joints.csv", joints_text(models[i], logs[i]));
     if (models[i].sides.any()) write_text_file(path + "_odometry.csv", odometry_text(logs[i]));
     write_robot_description(folder + "/robots", names[i], models[i]);
   }
   const Json all = {{"format", "rubble robots 1"},
-                    {"pieces_moved", result.pieces_moved},
+                    {"pieces_moved", pieces_moved},
                     {"robots", list}};
   write_text_file(folder + "/robots/robots.json", all.dump(2) + "\n");
   write_text_file(folder + "/robots/package.xml", package_text());

@@ -96,7 +96,7 @@ bool repair(Mat3& inertia) {
   Vec3 second{half - moments.x, half - moments.y, half - moments.z};
   const double least = kLeastShare * std::max({second.x, second.y, second.z});
   const double largest = std::max({moments.x, moments.y, moments.z}), smallest = std::min({moments.x, moments.y, moments.z});
-  if (smallest < -kRounding * largest || std::min({second.x, second.y, second.z}) > 0) return false;
+  if (smallest < -kRounding * largest || std::min({second.x, second.y, second.z}) > kRounding * largest) return false;
   second = max(second, Vec3{least, least, least});
   const Vec3 better{second.y + second.z, second.z + second.x, second.x + second.y};
   inertia = axes * Mat3::diagonal(better) * axes.transposed();

@@ -35,6 +35,7 @@ class Builder {
       add(file_.links[0].line, file_.name, "too many bodies that move", std::to_string(kMaxLinks) + " at most",
           std::to_string(made_.model.links.size()));
     for (std::size_t i = 0; i < file_.links.size(); ++i) add_shape(file_.links[i], places_[i]);
+    add_belts();
     set_urdf_masses(file_, places_, body_lines_, made_.model, made_.warnings, mistakes_);
     add_mimics();
     add_motors();
@@ -91,7 +92,7 @@ class Builder {
       const UrdfLink& child = file_.links[std::size_t(joint.child)];
       if (joint.child == base_) {
         places_.push_back({0, {}});
-      } else if (joint.kind == JointKind::weld) {
+      } else if (joint.kind == JointKind::weld && !is_track(child.name)) {
         places_.push_back({parent.body, body_from_child});
         made_.model.frames.push_back({child.name, parent.body, body_from_child});
       } else {
@@ -100,6 +101,13 @@ class Builder {
         add_joint(joint, parent.body, body_from_child);
       }
     }
+  }
+
+  // It moves with its link, but its surface runs: a body of its own.
+  bool is_track(const std::string& link) const {
+    for (const auto* side : {&robot_.left_tracks, &robot_.right_tracks})
+      if (std::find(side->begin(), side->end(), link) != side->end()) return true;
+    return false;
   }
 
   void add_joint(const UrdfJoint& from, int parent, const Pose& parent_from_child) {
@@ -173,8 +181,8 @@ class Builder {
       }
       mimic.of = led && !led->mimic ? find_joint(led->name) : -1;
       if (mimic.of < 0)
-        add(joint.line, joint.name, "mimics a joint that does not move", "another joint that moves",
-            "\"" + joint.mimic->joint + "\"");
+        warn(joint.line, "the joint `" + joint.name + "` moves by itself: `" + joint.mimic->joint +
+                             "`, which it mimics, is no joint that moves");
       else
         made_.model.mimics.push_back(mimic);
     }
@@ -252,6 +260,57 @@ class Builder {
     return wheels;
   }
 
+  // Of one side: indices of the links. Their surface runs about the base's Y axis.
+  std::vector<int> tracks_of(const std::vector<std::string>& names, const char* member, int side) {
+    std::vector<int> tracks;
+    std::vector<RobotLink>& links = made_.model.links;
+    for (const std::string& name : names) {
+      const auto at = std::find_if(links.begin(), links.end(), [&](const RobotLink& link) { return link.name == name; });
+      if (at == links.end()) {
+        refuse_key(member, "the robot has no such link", "a link of " + file_.path, "\"" + name + "\"");
+        continue;
+      }
+      tracks.push_back(int(at - links.begin()));
+      if (at->parts.empty())
+        add(body_lines_[std::size_t(tracks.back())], name, "a track has no <collision>, so it moves nothing", "a shape", "none");
+      at->belt_axis = zero_[std::size_t(tracks.back())].rotation.conjugate().rotate({0, 1, 0});
+      at->belt_speed_limit = robot_.track_speed;
+      at->belt_side = side;
+    }
+    return tracks;
+  }
+
+  // In the middle of a track's shape.
+  double middle_of(const std::vector<int>& tracks) const {
+    double sum = 0;
+    for (const int track : tracks) {
+      Aabb reach;
+      for (const ConvexPart& part : made_.model.links[std::size_t(track)].parts)
+        for (const Vec3& p : part.points) reach.include(zero_[std::size_t(track)] * p);
+      sum += 0.5 * (reach.min.y + reach.max.y);
+    }
+    return sum / double(tracks.size());
+  }
+
+  void add_belts() {
+    if (robot_.left_tracks.empty()) return;
+    zero_ = calc_base_from_links(made_.model, std::vector<double>(made_.model.joints.size(), 0));
+    SideDrive& sides = made_.model.sides;
+    sides.left = tracks_of(robot_.left_tracks, "left_tracks", 1);
+    sides.right = tracks_of(robot_.right_tracks, "right_tracks", -1);
+    if (!sides.any() || !mistakes_.empty()) return;
+    sides.belts = true;
+    refuse_odom_link("left_tracks");
+    sides.distance = middle_of(sides.left) - middle_of(sides.right);
+    if (sides.distance <= 0) refuse_key("left_tracks", "the left tracks are not left of the right ones", "a larger y", "");
+  }
+
+  // key: that gives the robot odometry.
+  void refuse_odom_link(const std::string& key) {
+    for (const UrdfLink& link : file_.links)
+      if (link.name == "odom") add(link.line, link.name, "is the frame of the odometry", "another name, or no `" + key + "`", "");
+  }
+
   void add_sides() {
     if (robot_.left_wheels.empty()) return;
     zero_ = calc_base_from_links(made_.model, std::vector<double>(made_.model.joints.size(), 0));
@@ -265,8 +324,7 @@ class Builder {
         sum += zero_[std::size_t(made_.model.joints[std::size_t(i)].child)].translation.y;
       return sum / double(side.size());
     };
-    for (const UrdfLink& link : file_.links)
-      if (link.name == "odom") add(link.line, link.name, "is the frame of the odometry", "another name, or no `left_wheels`", "");
+    refuse_odom_link("left_wheels");
     sides.radius = robot_.wheel_radius;
     sides.distance = middle(sides.left) - middle(sides.right);
     if (sides.distance > 0) return;

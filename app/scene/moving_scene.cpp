@@ -107,6 +107,13 @@ Scene build_robot_scene(const Scenario& scenario, const AssetLibrary& assets, co
   return scene;
 }
 
+std::optional<Pose> pose_in_track(const Track& track, int id, std::int64_t since_ns) {
+  const TrackBody* const body = track.find(id);
+  if (!body) return std::nullopt;
+  const auto motion = track.motion_at(*body, seconds_between(0, since_ns));
+  return motion ? std::optional<Pose>(motion->world_from_body) : std::nullopt;
+}
+
 Scene build_live_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
                        const RobotTrack& robots, LivePose pose_of) {
   Scene scene = build_scene(scenario, assets, pile);
@@ -123,9 +130,11 @@ Scene build_live_scene(const Scenario& scenario, const AssetLibrary& assets, con
     const bool piece = std::size_t(mover) < pile.pieces.size();
     if (piece && (fixed_debris || pile.pieces[std::size_t(mover)].status == PieceStatus::fixed)) continue;
     scene.motion.moving.push_back(std::uint32_t(i));
+    if (const auto pose = pose_of(mover, scenario.start_ns)) scene.instances[i].world_from_body = *pose;
     scene.motion.reach.include(scene.instances[i].world_from_body.translation);
     movers.push_back(mover);
   }
+  scene.motion.may_rest = true;
   // Where robots and what they push may get to.
   scene.motion.reach.include(scene.motion.reach.min - Vec3{kLiveReach, kLiveReach, 0});
   scene.motion.reach.include(scene.motion.reach.max + Vec3{kLiveReach, kLiveReach, kLiveReach});

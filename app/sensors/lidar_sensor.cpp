@@ -42,14 +42,12 @@ LidarPlace place_of(const LidarScenario& lidar, const Scenario& flown,
 
 }  // namespace
 
-std::vector<std::unique_ptr<Sensor>> make_lidar_sensors(const Scenario& flown, const Scene& scene,
+std::vector<std::unique_ptr<Sensor>> make_lidar_sensors(const Scenario& flown, const std::shared_ptr<LidarWorld>& world,
                                                         const Medium& medium, std::uint64_t noise_seed,
                                                         std::int64_t last_ns,
                                                         std::shared_ptr<const MotionPath> path,
                                                         const RobotReadings& robots, int threads) {
   std::vector<std::unique_ptr<Sensor>> sensors;
-  if (flown.lidars.empty()) return sensors;
-  const auto world = std::make_shared<LidarWorld>(scene);
   for (const LidarScenario& lidar : flown.lidars) {
     const std::uint64_t seed = RandomStream(noise_seed, "lidars/" + lidar.name).next();
     sensors.push_back(std::make_unique<LidarSensor>(

@@ -6,16 +6,16 @@
 #include <vector>
 
 #include "app/sensors/robot_readings.h"
+#include "render/lidar/lidar_world.h"
 #include "render/media/medium.h"
 #include "render/scene/sample.h"
-#include "render/scene/scene.h"
 #include "scripting/scenario/scenario.h"
 
 namespace rubble {
 
-// flown: the scenario with the path that is flown; robots: what carries those that are not on the rig. medium: what hangs in the air of the scene. last_ns: no
-// scan begins later. All share one tree of the scene's triangles. Empty where the mission has no LiDAR.
-std::vector<std::unique_ptr<Sensor>> make_lidar_sensors(const Scenario& flown, const Scene& scene,
+// flown: the scenario with the path that is flown; robots: what carries those that are not on the rig. world: what rays meet.
+// medium: what hangs in the air of the scene. last_ns: no scan begins later. Empty where the mission has no LiDAR.
+std::vector<std::unique_ptr<Sensor>> make_lidar_sensors(const Scenario& flown, const std::shared_ptr<LidarWorld>& world,
                                                         const Medium& medium, std::uint64_t noise_seed,
                                                         std::int64_t last_ns,
                                                         std::shared_ptr<const MotionPath> path,

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "app/sensors/contact_history.h"
 #include "render/scene/robot_sample.h"
 #include "scripting/trajectory/motion_path.h"
 #include "scripting/trajectory/trajectory.h"
@@ -17,10 +18,18 @@ struct LinkWay {
   std::shared_ptr<const MotionPath> path;  // of the link's frame
 };
 
+// Links that a sensor of contact feels.
+struct FeltLinks {
+  std::size_t robot = 0;
+  std::vector<std::size_t> links;
+};
+
 struct RobotReadings {
   std::vector<std::vector<RobotSample>> samples;  // by robot, in order of stamps
   std::shared_ptr<const MotionPath> ride;  // of the rig, on a link; none: it flies the trajectory
   std::vector<LinkWay> links;              // each carrier once
+  ContactHistory contacts;                 // of their links
+  std::vector<FeltLinks> felt;             // by sensor of the scenario; empty without robots
 
   // Of what rides there; `rig` where nothing carries it.
   const std::shared_ptr<const MotionPath>& path_of(const Carrier& carrier,

@@ -5,6 +5,7 @@
 
 #include "app/sensors/build_imu.h"
 #include "app/sensors/lidar_sensor.h"
+#include "app/sensors/reading_sensor.h"
 #include "render/sensors/camera.h"
 #include "scripting/trajectory/imu.h"
 #include "scripting/trajectory/trajectory.h"
@@ -130,9 +131,15 @@ SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const S
     sensors_.push_back(std::make_unique<ImuSensor>(imu, number++, flown, begin.noise_seed,
                                                    robots.end_of(imu.ride, flown.start_ns, last_ns),
                                                    robots.path_of(imu.ride, flight.path)));
-  for (auto& lidar : make_lidar_sensors(flown, scene, renderer.medium(), begin.noise_seed, last_ns,
+  const auto world = flown.lidars.empty() && !needs_rays(flown.sensors) ? nullptr : std::make_shared<LidarWorld>(scene);
+  for (auto& lidar : make_lidar_sensors(flown, world, renderer.medium(), begin.noise_seed, last_ns,
                                         flight.path, robots, threads))
     sensors_.push_back(std::move(lidar));
+  for (std::size_t i = 0; i < flown.sensors.size(); ++i) {
+    const Carrier& ride = flown.sensors[i].ride;
+    sensors_.push_back(std::make_unique<ReadingSensor>(flown, int(i), begin.noise_seed, robots.end_of(ride, flown.start_ns, last_ns),
+                                                       robots.path_of(ride, flight.path), world, forces_of(robots, i)));
+  }
   for (auto& camera : cameras) sensors_.push_back(std::move(camera));
 }
 

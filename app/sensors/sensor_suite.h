@@ -21,7 +21,7 @@ struct SensorBegin {
 };
 
 // All sensors on the rig and on links of robots, and the readings of robots, merged by stamp. Samples with equal stamps
-// come in this order: robots, inertial units, LiDARs, cameras in the order of all_cameras(). The renderer and the
+// come in this order: robots, inertial units, LiDARs, other sensors, cameras in the order of all_cameras(). The renderer and the
 // readings must outlive the suite.
 class SensorSuite {
  public:

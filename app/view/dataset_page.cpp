@@ -8,8 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/eval/scores/trajectory_file.h"
+#include "app/formats/recording_formats.h"
 #include "app/report/html_text.h"
 #include "app/scene/build_scene.h"
+#include "app/view/packed_mesh.h"
+#include "app/view/robots_of_page.h"
 #include "app/view/viewer_code.h"
 #include "io/image/image_file.h"
 #include "io/image/jpeg_file.h"
@@ -25,22 +28,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostVoids = 40;
-
-template <typename T>
-std::string pack(const std::vector<T>& values) {
-  return base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
-}
-
-void add(std::vector<float>& values, const Vec3& p) {
-  for (int i = 0; i < 3; ++i) values.push_back(float(p[i]));
-}
-
-// Distinct positions of the triangles alone, and their corners.
-struct PackedMesh {
-  std::vector<float> positions;
-  std::vector<std::uint32_t> indices;
-  Json json() const { return {{"positions", pack(positions)}, {"indices", pack(indices)}}; }
-};
 
 PackedMesh pick_surface(const TriangleMesh& mesh, std::size_t surface) {
   PackedMesh picked;
@@ -139,21 +126,40 @@ Json describe_voids(const std::vector<fs::path>& files) {
   return voids;
 }
 
-Json describe_track(const std::string& folder, const Scenario& scenario, std::size_t& frames) {
+// The way of a camera, from its groundtruth.txt: in the folder, or in cameras/NAME.
+struct CameraWay {
+  std::string name;    // empty: the mission has one
+  std::string topic;   // ROS: prefix of its topics
+  double aspect = 0.75;
+  std::vector<StampedPose> poses;
+};
+
+std::vector<CameraWay> find_ways(const std::string& folder, const Scenario& scenario) {
+  std::vector<CameraWay> ways;
+  std::error_code failed;
+  for (const MountedCamera& camera : all_cameras(scenario)) {
+    CameraWay way;
+    way.name = scenario.cameras.empty() ? "" : camera.name;
+    way.aspect = double(camera.camera.height) / camera.camera.width;
+    way.topic = camera.camera.topic.value_or("/" + camera.name);
+    const std::string file = (way.name.empty() ? folder : folder + "/" + kCamerasFolder + "/" + way.name) + "/groundtruth.txt";
+    if (fs::is_regular_file(file, failed)) way.poses = load_trajectory(file);
+    ways.push_back(std::move(way));
+  }
+  return ways;
+}
+
+Json describe_way(const CameraWay& way) {
   std::vector<float> positions, rotations;
   std::vector<double> stamps;
-  std::error_code failed;
-  if (fs::is_regular_file(folder + "/groundtruth.txt", failed))
-    for (const StampedPose& pose : load_trajectory(folder + "/groundtruth.txt")) {
-      add(positions, pose.world_from_body.translation);
-      const Quat& q = pose.world_from_body.rotation;
-      for (const double v : {q.x, q.y, q.z, q.w}) rotations.push_back(float(v));
-      stamps.push_back(pose.stamp);
-    }
-  frames = stamps.size();
-  const double aspect = double(scenario.camera.height) / scenario.camera.width;
-  return {{"positions", pack(positions)}, {"rotations", pack(rotations)}, {"stamps", stamps},
-          {"view", {0.6, 0.6 * aspect}},  {"length", 0.25}};
+  for (const StampedPose& pose : way.poses) {
+    add(positions, pose.world_from_body.translation);
+    const Quat& q = pose.world_from_body.rotation;
+    for (const double v : {q.x, q.y, q.z, q.w}) rotations.push_back(float(v));
+    stamps.push_back(pose.stamp);
+  }
+  return {{"name", way.name},  {"positions", pack(positions)}, {"rotations", pack(rotations)},
+          {"stamps", stamps},  {"view", {0.6, 0.6 * way.aspect}}, {"length", 0.25}};
 }
 
 RgbImage to_image(const RecordedPicture& picture, int width) {
@@ -169,14 +175,16 @@ RgbImage to_image(const RecordedPicture& picture, int width) {
   return image;
 }
 
-Json describe_frames(const std::string& folder, std::size_t frames, const ViewOptions& options) {
+Json describe_frames(const std::string& folder, const CameraWay& way, const ViewOptions& options) {
   Json list = Json::array();
+  const std::size_t frames = way.poses.size();
   const std::size_t count = std::min(frames, std::size_t(options.frames));
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t frame = count == 1 ? 0 : i * (frames - 1) / (count - 1);
     PictureWanted wanted;
     wanted.channel = "rgb";
     wanted.frame = int(frame);
+    wanted.camera = way.name, wanted.topic = way.topic;
     const auto picture = find_recorded_picture(folder, wanted);
     if (!picture || picture->components != 3) break;
     const RgbImage image = to_image(*picture, options.width);
@@ -192,7 +200,7 @@ html, body { margin: 0; height: 100%; font: 14px/1.4 system-ui, sans-serif; }
 #panel { position: absolute; top: .6rem; left: .6rem; width: 17rem; padding: .6rem .8rem; color: #222;
   background: #fffd; border-radius: .4rem; }
 #panel h1 { font-size: 1rem; margin: 0 0 .3rem; } #panel label { display: block; }
-#panel input[type=range] { width: 100%; } #picture { max-width: 100%; } #status, #frame { font-size: .8rem; }
+[hidden] { display: none !important; } #panel input[type=range] { width: 100%; } #picture { max-width: 100%; } #status, #frame { font-size: .8rem; }
 </style>
 )";
 
@@ -205,7 +213,7 @@ std::string left_out(const Scenario& scenario, int voids_of_other_piles) {
   return names.empty() ? "" : "<p id=\"left_out\">not on this page: " + names + "</p>\n";
 }
 
-std::string panel(const std::string& title, bool has_voids, std::size_t frames, const std::string& note) {
+std::string panel(const std::string& title, bool has_voids, bool has_robots, bool has_frames, const std::string& note) {
   const auto box = [](const char* id, const char* text) {
     return "<label><input type=\"checkbox\" id=\"" + std::string(id) + "\" checked> " + text + "</label>\n";
   };
@@ -214,9 +222,11 @@ std::string panel(const std::string& title, bool has_voids, std::size_t frames, 
          "step=\"0.05\" value=\"1\"></label>\n<label>cut away <input type=\"range\" id=\"cut\" min=\"0\" "
          "max=\"1\" step=\"0.01\" value=\"1\"></label>\n" +
          box("voids", has_voids ? "voids" : "voids (none here: `rubble voids` maps them)") +
-         box("track", "the camera's path") +
+         box("track", "ways of cameras and robots") +
+         (has_robots ? box("robots", "robots") : "") +
+         "<label id=\"which\" hidden>camera <select id=\"camera\"></select></label>\n" +
          "<input type=\"range\" id=\"time\" min=\"0\" max=\"0\" value=\"0\"" +
-         std::string(frames ? "" : " hidden") + ">\n<div id=\"frame\"></div>\n<img id=\"picture\" alt=\"\">\n" +
+         std::string(has_frames ? "" : " hidden") + ">\n<div id=\"frame\"></div>\n<img id=\"picture\" alt=\"\">\n" +
          note + "<p id=\"status\">loading</p>\n</div>\n";
 }
 
@@ -235,7 +245,6 @@ std::string make_dataset_page(const FinishedRun& saved, const AssetLibrary& asse
   for (const PileModel::Piece& piece : model.pieces) bounds.include(piece.world_from_body.translation);
   const Vec3 centre = model.pieces.empty() ? Vec3{} : (bounds.min + bounds.max) * 0.5;
   const double radius = model.pieces.empty() ? 1 : std::max(1.0, 0.5 * norm(bounds.max - bounds.min));
-  std::size_t frames = 0;
   const FoundVoids voids = find_voids(saved.folder, pile);
   const Scenario scenario = stated_scenario(saved.manifest.provenance);
   const std::string title = saved.manifest.provenance.script.path + ", seed " + std::to_string(saved.manifest.seed);
@@ -245,13 +254,21 @@ std::string make_dataset_page(const FinishedRun& saved, const AssetLibrary& asse
                {"radius", radius},
                {"types", describe_types(model, assets, options.triangles)},
                {"voids", describe_voids(voids.files)},
-               {"track", describe_track(saved.folder, scenario, frames)}};
-  const std::string not_shown = left_out(scenario, voids.of_other_piles);
-  data["frames"] = describe_frames(saved.folder, frames, options);
+               {"tracks", Json::array()}};
+  std::string not_shown = left_out(scenario, voids.of_other_piles);
+  bool has_frames = false;
+  for (const CameraWay& way : find_ways(saved.folder, scenario)) {
+    Json track = describe_way(way);
+    track["frames"] = describe_frames(saved.folder, way, options);
+    data["tracks"].push_back(std::move(track));
+    has_frames = has_frames || !way.poses.empty();
+  }
+  data["robots"] = describe_robots_of(saved.folder, scenario.start_ns);
+  if (!data["robots"].empty()) not_shown += "<p>Pieces are where they rested before robots moved them.</p>\n";
   std::string json = data.dump(-1, ' ', true, Json::error_handler_t::replace);
   for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;) json.replace(at, 1, "\\u003c");
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + html_escape(title) +
-         "</title>\n" + kLooks + "</head>\n<body>\n" + panel(title, !data["voids"].empty(), frames, not_shown) +
+         "</title>\n" + kLooks + "</head>\n<body>\n" + panel(title, !data["voids"].empty(), !data["robots"].empty(), has_frames, not_shown) +
          "<script type=\"application/json\" id=\"data\">" + json + "</script>\n<script>\n" + three_code() +
          "\n</script>\n<script>\n" + viewer_code() + "</script>\n</body>\n</html>\n";
 }

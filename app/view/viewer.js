@@ -58,22 +58,36 @@ data.voids.forEach((mesh, i) => {
     side: THREE.DoubleSide, transparent: true, opacity: 0.45, depthWrite: false, clippingPlanes: [cut] });
   voids.add(new THREE.Mesh(geometryOf(mesh), material));
 });
-const path = floats(data.track.positions), turns = floats(data.track.rotations);
-const frames = path.length / 3;
-const marker = new THREE.Group();
-if (frames > 0) {
+const robots = new THREE.Group();
+function lineOf(positions, colour) {
   const geometry = new THREE.BufferGeometry();
-  geometry[geometry.setAttribute ? 'setAttribute' : 'addAttribute']('position', new THREE.BufferAttribute(path, 3));
-  track.add(new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: 0xc0392b })));
-  // The camera's view, in its optical frame: Z forward, X right, Y down.
-  const [w, h] = data.track.view, corners = [[-w, -h, 1], [w, -h, 1], [w, h, 1], [-w, h, 1]].map(
-    c => new THREE.Vector3(...c).multiplyScalar(data.track.length));
+  geometry[geometry.setAttribute ? 'setAttribute' : 'addAttribute']('position', new THREE.BufferAttribute(positions, 3));
+  return new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: colour }));
+}
+// A camera's way, and its view in the optical frame: Z forward, X right, Y down.
+const ways = data.tracks.map(way => {
+  const path = floats(way.positions), marker = new THREE.Group();
+  if (path.length === 0) return null;
+  track.add(lineOf(path, 0xc0392b));
+  const [w, h] = way.view, corners = [[-w, -h, 1], [w, -h, 1], [w, h, 1], [-w, h, 1]].map(
+    c => new THREE.Vector3(...c).multiplyScalar(way.length));
   const lines = new THREE.Geometry();
   corners.forEach((c, i) => lines.vertices.push(new THREE.Vector3(), c, c, corners[(i + 1) % 4]));
   marker.add(new THREE.LineSegments(lines, new THREE.LineBasicMaterial({ color: 0xe67e22 })));
   track.add(marker);
+  return { name: way.name, path, turns: floats(way.rotations), stamps: way.stamps, frames: way.frames, marker };
+}).filter(way => way);
+const movers = [];
+for (const robot of data.robots) {
+  track.add(lineOf(floats(robot.positions), 0x2471a3));
+  for (const link of robot.links) {
+    const mesh = new THREE.Mesh(geometryOf(link), new THREE.MeshLambertMaterial({ color: 0x5d7fa3, side: THREE.DoubleSide, flatShading: true }));
+    robots.add(mesh);
+    movers.push({ mesh, poses: floats(link.poses), stamps: robot.stamps });
+    triangles += counts(link.indices).length / 3;
+  }
 }
-scene.add(pieces, voids, track);
+scene.add(pieces, voids, track, robots);
 
 const centre = new THREE.Vector3(...data.centre), radius = data.radius;
 const grid = new THREE.GridHelper(Math.max(4, 2 * Math.ceil(1.5 * radius)), Math.max(4, 2 * Math.ceil(1.5 * radius)), 0x999999, 0xcccccc);
@@ -119,8 +133,8 @@ canvas.addEventListener('wheel', event => {
 window.addEventListener('resize', draw);
 
 const control = id => document.getElementById(id);
-for (const [id, group] of [['pieces', pieces], ['voids', voids], ['track', track]])
-  control(id).addEventListener('change', () => { group.visible = control(id).checked; draw(); });
+for (const [id, group] of [['pieces', pieces], ['voids', voids], ['track', track], ['robots', robots]])
+  if (control(id)) control(id).addEventListener('change', () => { group.visible = control(id).checked; draw(); });
 control('opacity').addEventListener('input', () => {
   const opacity = Number(control('opacity').value);
   pieceMaterials.forEach(material => { material.opacity = opacity; material.depthWrite = opacity > 0.99; });
@@ -131,26 +145,62 @@ control('cut').addEventListener('input', () => {
   cut.constant = share >= 1 ? 1e6 : -(centre.y - radius + 2 * radius * (1 - share));
   draw();
 });
+function nearest(stamps, stamp) {
+  let at = 0;
+  stamps.forEach((s, i) => { if (Math.abs(s - stamp) < Math.abs(stamps[at] - stamp)) at = i; });
+  return at;
+}
+// Robots and all cameras where they were at that time.
+function place(stamp) {
+  for (const way of ways) {
+    const i = nearest(way.stamps, stamp);
+    way.marker.position.fromArray(way.path, 3 * i);
+    way.marker.quaternion.fromArray(way.turns, 4 * i);
+  }
+  for (const mover of movers) {
+    const i = nearest(mover.stamps, stamp);
+    mover.mesh.position.fromArray(mover.poses, 7 * i);
+    mover.mesh.quaternion.fromArray(mover.poses, 7 * i + 3);
+  }
+}
+let shown = ways[0];
 function show(frame) {
-  if (frames === 0) return;
-  marker.position.fromArray(path, 3 * frame);
-  marker.quaternion.fromArray(turns, 4 * frame);
-  const near = data.frames.reduce((best, f) => !best || Math.abs(f.frame - frame) < Math.abs(best.frame - frame) ? f : best, null);
-  if (near) control('picture').src = 'data:image/jpeg;base64,' + near.jpeg;
-  control('frame').textContent = 'frame ' + frame + ', ' + data.track.stamps[frame].toFixed(3) + ' s' +
+  if (!shown) {
+    if (movers.length > 0) place(movers[0].stamps[frame]);
+    draw();
+    return;
+  }
+  place(shown.stamps[frame]);
+  const near = shown.frames.reduce((best, f) => !best || Math.abs(f.frame - frame) < Math.abs(best.frame - frame) ? f : best, null);
+  control('picture').src = near ? 'data:image/jpeg;base64,' + near.jpeg : '';
+  control('frame').textContent = 'frame ' + frame + ', ' + shown.stamps[frame].toFixed(3) + ' s' +
     (near && near.frame !== frame ? '; picture of frame ' + near.frame : '');
   draw();
 }
-if (frames > 0) {
-  control('time').max = frames - 1;
+const moments = () => shown ? shown.stamps.length : movers.length > 0 ? movers[0].stamps.length : 0;
+if (moments() > 0) {
+  control('time').hidden = false;
+  control('time').max = moments() - 1;
   control('time').addEventListener('input', () => show(Number(control('time').value)));
 }
-if (location.hash === '#follow' && frames > 0) {
-  eye.target.fromArray(path, 0);
+if (ways.length > 1) {
+  control('which').hidden = false;
+  ways.forEach((way, i) => control('camera').add(new Option(way.name, i)));
+  control('camera').addEventListener('change', () => {
+    const stamp = shown.stamps[Number(control('time').value)];
+    shown = ways[Number(control('camera').value)];
+    control('time').max = moments() - 1;
+    control('time').value = nearest(shown.stamps, stamp);
+    show(Number(control('time').value));
+  });
+}
+if (location.hash === '#follow' && shown) {
+  eye.target.fromArray(shown.path, 0);
   eye.away = 1;
 }
 show(0);
 draw();
-status.textContent = data.pieces + ' pieces, ' + triangles + ' triangles, ' + data.voids.length + ' voids, ' + frames + ' frames';
+status.textContent = data.pieces + ' pieces, ' + triangles + ' triangles, ' + data.voids.length + ' voids, ' +
+  ways.reduce((sum, way) => sum + way.stamps.length, 0) + ' frames' + (data.robots.length > 0 ? ', ' + data.robots.length + (data.robots.length > 1 ? ' robots' : ' robot') : '');
 document.body.dataset.state = 'drawn';
 })();

@@ -14,6 +14,7 @@
 #include "io/mrpt/action_frames.h"
 #include "io/mrpt/lidar_observations.h"
 #include "io/mrpt/mrpt_types.h"
+#include "io/mrpt/reading_observations.h"
 #include "io/recording/frame_order.h"
 #include "kernel/base/error.h"
 
@@ -67,6 +68,13 @@ class RawlogRecorder : public Recorder {
     const LidarRecord& lidar = recording_.lidars.at(std::size_t(scan.sensor));
     guard([&] {
       write_lidar_observation(scan, lidar, [&](const auto& observation) { emit(scan.stamp_ns, observation); });
+    });
+  }
+
+  void write_reading(const Reading& reading) override {
+    const SensorRecord& sensor = recording_.sensors.at(std::size_t(reading.sensor));
+    guard([&] {
+      write_reading_observation(reading, sensor, [&](const auto& observation) { emit(reading.stamp_ns, observation); });
     });
   }
 

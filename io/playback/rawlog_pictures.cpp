@@ -46,9 +46,11 @@ RecordedPicture depth_of(const CObservation3DRangeScan& scan) {
 
 // The label of the observation that has the channel; empty: none has.
 std::string label_of(const PictureWanted& wanted) {
-  if (wanted.channel == "rgb" || wanted.channel == "measured_depth") return "camera";
-  if (wanted.channel == "rgb_right") return "camera_right";
-  if (wanted.channel == "depth") return wanted.measured_depth ? "ground_truth_depth" : "camera";
+  const std::string camera = wanted.camera.empty() ? "camera" : wanted.camera;
+  if (wanted.channel == "rgb" || wanted.channel == "measured_depth") return camera;
+  if (wanted.channel == "rgb_right") return camera + "_right";
+  const std::string truth = (wanted.camera.empty() ? "" : camera + "_") + std::string("ground_truth_depth");
+  if (wanted.channel == "depth") return wanted.measured_depth ? truth : camera;
   return "";
 }
 

@@ -147,9 +147,15 @@ std::string pixel_text(const RecordedPicture& picture, std::size_t pixel) {
 std::optional<RecordedPicture> find_recorded_picture(const std::string& folder,
                                                      const PictureWanted& wanted,
                                                      const std::set<std::string>& left_out) {
-  if (!wanted.camera.empty()) return find_in_folder_of_camera(folder, wanted, left_out);
+  using Reader = Found (*)(const std::string&, Wanted);
+  std::vector<Reader> readers{from_frames, from_bag, from_mcap, from_rawlog, from_tum, from_colmap};
   Found rounded;
-  for (const auto& read : {from_frames, from_bag, from_mcap, from_rawlog, from_tum, from_colmap}) {
+  if (!wanted.camera.empty()) {
+    rounded = find_in_folder_of_camera(folder, wanted, left_out);
+    if (rounded && rounded->step == 0) return rounded;
+    readers = {from_bag, from_mcap, from_rawlog};  // those that hold all cameras
+  }
+  for (const Reader read : readers) {
     try {
       Found found = read(folder, wanted);
       if (!found || left_out.count(found->file)) continue;

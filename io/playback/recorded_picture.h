@@ -13,7 +13,8 @@ struct PictureWanted {
   int frame = 0;        // from 0
   bool measured_depth =
       false;  // whether the frames have that channel: the exact depth is elsewhere
-  std::string camera{};  // of several: its name; then only what is in cameras/NAME is looked at
+  std::string camera{};  // of several: its name; formats that hold one camera are in cameras/NAME
+  std::string topic{};   // ROS: prefix of its topics; empty: "/NAME"
 };
 
 struct RecordedPicture {

@@ -102,12 +102,15 @@ std::optional<RecordedPicture> parse_image(const RosMessage& message, bool is_de
 // Where a channel is, in the order of trust.
 std::vector<std::string> topics_of(const PictureWanted& wanted) {
   const std::string& c = wanted.channel;
-  if (c == "rgb") return {"/camera/rgb/image_raw"};
-  if (c == "rgb_right") return {"/camera/right/image_raw"};
-  if (c == "depth" && wanted.measured_depth) return {"/ground_truth/depth/image"};
+  const bool several = !wanted.camera.empty();
+  const std::string camera = !wanted.topic.empty() ? wanted.topic : several ? "/" + wanted.camera : "/camera";
+  const std::string truth = several ? camera + "/ground_truth/" : "/ground_truth/";
+  if (c == "rgb") return {camera + "/rgb/image_raw"};
+  if (c == "rgb_right") return {camera + "/right/image_raw"};
+  if (c == "depth" && wanted.measured_depth) return {truth + "depth/image"};
   if (c == "depth" || c == "measured_depth")
-    return {"/camera/depth_registered/image", "/camera/depth_registered/image_raw"};
-  return {"/ground_truth/" + c + "/image"};
+    return {camera + "/depth_registered/image", camera + "/depth_registered/image_raw"};
+  return {truth + c + "/image"};
 }
 
 }  // namespace

@@ -10,13 +10,14 @@ namespace rubble {
 class Recorder {
  public:
   virtual ~Recorder() = default;  // without finish(): removes its files
-  // Samples come in the order of their stamps. With equal stamps, robots, inertial units and scans come before frames.
+  // Samples come in the order of their stamps. With equal stamps, all others come before frames.
   // Throws RunError for a frame that is missing or out of order.
   virtual void write(const Frame& frame) = 0;
   // Formats without a place for these samples leave them out.
   virtual void write_imu(const ImuSample&) {}
   virtual void write_robot(const RobotSample&) {}
   virtual void write_lidar(const LidarScan&) {}
+  virtual void write_reading(const Reading&) {}
   // Completes the files and gives them their final names.
   virtual void finish() = 0;
 };
@@ -28,6 +29,8 @@ inline void write_sample(Recorder& recorder, const Sample& sample) {
     recorder.write_imu(*reading);
   else if (const auto* scan = std::get_if<LidarScan>(&sample))
     recorder.write_lidar(*scan);
+  else if (const auto* values = std::get_if<Reading>(&sample))
+    recorder.write_reading(*values);
   else
     recorder.write_robot(std::get<RobotSample>(sample));
 }

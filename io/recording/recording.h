@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "io/recording/reading_format.h"
 #include "render/scene/camera_spec.h"
 #include "render/scene/frame.h"
 #include "render/scene/lidar_spec.h"
@@ -89,6 +91,16 @@ struct LidarRecord {
   LidarSpec spec;                  // pattern and limits
 };
 
+// A sensor that gives a few numbers. Reading::sensor is its number.
+struct SensorRecord {
+  std::string name;      // of labels and files
+  std::string topic;     // ROS: prefix of its topics
+  std::string frame_id;  // TF
+  std::string carrier;   // TF: the link that carries it; empty: the rig
+  Pose rig_from_sensor;  // or in the link; axes: X forward, Y left, Z up
+  std::shared_ptr<const ReadingFormat> format;  // never null
+};
+
 // A robot. RobotSample::sensor is its number.
 struct RobotRecord {
   struct Joint {
@@ -120,6 +132,7 @@ struct Recording {
   std::vector<CameraRecord> cameras{1};  // at least one
   std::vector<ImuRecord> imus;           // empty without inertial units
   std::vector<LidarRecord> lidars;
+  std::vector<SensorRecord> sensors;
   std::vector<RobotRecord> robots;
   std::optional<RigMount> mount;         // of the rig, on a robot
   Legend legend;                         // if a stream of ground truth has one

@@ -172,10 +172,14 @@ const char* find_not_finite(const LidarScan& scan) {
   return nullptr;
 }
 
+// It may be infinite or unknown.
+const char* find_not_finite(const Reading&) { return nullptr; }
+
 std::string describe(const Frame& frame) { return "frame " + std::to_string(frame.index); }
 std::string describe(const ImuSample& sample) {
   return "the reading at " + std::to_string(sample.stamp_ns) + " ns";
 }
+std::string describe(const Reading& reading) { return "the reading at " + std::to_string(reading.stamp_ns) + " ns"; }
 std::string describe(const LidarScan& scan) { return "scan " + std::to_string(scan.index); }
 
 std::string describe(const RobotSample& sample) {

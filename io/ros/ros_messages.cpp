@@ -264,6 +264,63 @@ std::string wrench_stamped(Version version, const Header& header, const Vec3& fo
   return out.take();
 }
 
+std::string range(Version version, const Header& header, bool infrared, double full_angle, double min_range,
+                  double max_range, double range) {
+  Wire out(version, 64);
+  put_header(out, header);
+  out.number(std::uint8_t(infrared));  // INFRARED is 1, ULTRASOUND 0
+  for (const double value : {full_angle, min_range, max_range, range}) out.number(static_cast<float>(value));
+  return out.take();
+}
+
+std::string boolean(Version version, bool value) {
+  Wire out(version, 8);
+  out.boolean(value);
+  return out.take();
+}
+
+std::string attitude(Version version, const Header& header, const Quat& q, const Vec3& variances) {
+  Wire out(version, 384);
+  put_header(out, header);
+  for (const double value : {q.x, q.y, q.z, q.w}) out.number(value);
+  for (int i = 0; i < 9; ++i) out.number(i % 4 == 0 ? variances[i / 4] : 0.0);
+  for (int unknown = 0; unknown < 2; ++unknown) {
+    put_vector(out, {});
+    for (int i = 0; i < 9; ++i) out.number(i == 0 ? -1.0 : 0.0);
+  }
+  return out.take();
+}
+
+std::string fluid_pressure(Version version, const Header& header, double pressure, double variance) {
+  Wire out(version, 64);
+  put_header(out, header);
+  out.number(pressure);
+  out.number(variance);
+  return out.take();
+}
+
+std::string magnetic_field(Version version, const Header& header, const Vec3& field, double variance) {
+  Wire out(version, 160);
+  put_header(out, header);
+  put_vector(out, field);
+  put_diagonal(out, variance);
+  return out.take();
+}
+
+std::string nav_sat_fix(Version version, const Header& header, bool fix, double latitude_deg, double longitude_deg,
+                        double altitude, const Vec3& variances) {
+  constexpr std::uint16_t kGps = 1;
+  constexpr std::uint8_t kUnknownCovariance = 0, kDiagonal = 2;
+  Wire out(version, 192);
+  put_header(out, header);
+  out.number(std::int8_t(fix ? 0 : -1));
+  out.number(kGps);
+  for (const double value : {latitude_deg, longitude_deg, altitude}) out.number(value);
+  for (int i = 0; i < 9; ++i) out.number(fix && i % 4 == 0 ? variances[i / 4] : 0.0);
+  out.number(fix ? kDiagonal : kUnknownCovariance);
+  return out.take();
+}
+
 std::string event_array(Version version, const Header& header, const Intrinsics& intrinsics,
                         const std::vector<Event>& events) {
   Wire out(version, 128 + 16 * events.size());

@@ -28,7 +28,8 @@ struct MessageType {
   const char* definition2;  // of ROS 2, as ros2msg
 };
 extern const MessageType kImage, kCompressedImage, kCameraInfo, kPoseStamped, kTfMessage, kClock,
-    kImu, kEventArray, kString, kPointCloud, kLaserScan, kJointState, kOdometry, kWrenchStamped;
+    kImu, kEventArray, kString, kPointCloud, kLaserScan, kJointState, kOdometry, kWrenchStamped, kRange, kBool,
+    kFluidPressure, kMagneticField, kNavSatFix;
 
 std::string type_name(const MessageType& type, Version version);
 
@@ -75,6 +76,18 @@ std::string true_odometry(Version version, const Header& header, const std::stri
 std::string odometry(Version version, const Header& header, const std::string& child, const RobotSample::Odometry& reading);
 std::string wrench_stamped(Version version, const Header& header, const Vec3& force,
                            const Vec3& moment);
+// What the sensors of scripting/sensors say. full_angle: unit: rad; ranges: unit: m; infinite as in REP 117.
+std::string range(Version version, const Header& header, bool infrared, double full_angle, double min_range,
+                  double max_range, double range);
+std::string boolean(Version version, bool value);
+// sensor_msgs/Imu with an orientation alone: what it does not measure has the covariance -1. variances: about the axes of
+// the fixed frame; unit: rad2
+std::string attitude(Version version, const Header& header, const Quat& orientation, const Vec3& variances);
+std::string fluid_pressure(Version version, const Header& header, double pressure, double variance);  // unit: Pa
+std::string magnetic_field(Version version, const Header& header, const Vec3& field, double variance);  // unit: T
+// Without a fix: status -1, and what is not known is NaN. variances: east, north, up; unit: m2
+std::string nav_sat_fix(Version version, const Header& header, bool fix, double latitude_deg, double longitude_deg,
+                        double altitude, const Vec3& variances);
 // dvs_msgs/EventArray, as drivers of event cameras publish.
 std::string event_array(Version version, const Header& header, const Intrinsics& intrinsics,
                         const std::vector<Event>& events);

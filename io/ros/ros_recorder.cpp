@@ -40,7 +40,8 @@ class RosRecorder : public Recorder {
         recording_(options.recording),
         order_(path, channels_of(options.recording)),
         imu_counts_(options.recording.imus.size()),
-        scan_counts_(options.recording.lidars.size()) {
+        scan_counts_(options.recording.lidars.size()),
+        reading_counts_(options.recording.sensors.size()) {
     for (CameraRecord& camera : recording_.cameras)
       camera.channels.truth = floats_first(camera.channels.truth);
     add_topics();
@@ -99,13 +100,22 @@ class RosRecorder : public Recorder {
                      : ros::point_cloud(version_, stamped, scan.points));
   }
 
+  void write_reading(const Reading& reading) override {
+    tick(reading.stamp_ns);
+    const auto i = std::size_t(reading.sensor);
+    const SensorRecord& sensor = recording_.sensors.at(i);
+    const ros::Header stamped{reading_counts_[i]++, reading.stamp_ns, sensor.frame_id};
+    for (std::size_t topic = 0; topic < sensors_[i].size(); ++topic)
+      file_->write(sensors_[i][topic], reading.stamp_ns, sensor.format->message(topic, version_, stamped, reading));
+  }
+
   void finish() override { file_->finish(); }
 
  private:
   bool compressed() const { return options_.pictures != RosPictures::raw; }
   bool packed_depth() const { return compressed() && options_.depth == RosDepth::millimetres; }
 
-  // Inertial units and LiDARs stand among the topics of the first camera, before its ground truth.
+  // Other sensors stand among the topics of the first camera, before its ground truth.
   void add_topics() {
     clock_ = file_->add("/clock", ros::kClock, false);
     tf_static_ = file_->add("/tf_static", ros::kTfMessage, true);
@@ -116,7 +126,7 @@ class RosRecorder : public Recorder {
     for (const CameraRecord& camera : recording_.cameras) {
       CameraTopics& topics = cameras_.emplace_back();
       add_pictures(camera, topics);
-      if (cameras_.size() == 1) add_range_and_inertial();
+      if (cameras_.size() == 1) add_other_sensors();
       add_ground_truth(camera, topics);
     }
     robots_ = std::make_unique<RobotTopics>(recording_.robots, *file_);
@@ -124,12 +134,17 @@ class RosRecorder : public Recorder {
       legend_ = file_->add("/ground_truth/legend", ros::kString, true);
   }
 
-  void add_range_and_inertial() {
+  void add_other_sensors() {
     for (const ImuRecord& imu : recording_.imus)
       imus_.push_back(file_->add(imu.topic, ros::kImu, false));
     for (const LidarRecord& lidar : recording_.lidars) {
       const bool planar = lidar.spec.pattern == LidarPattern::planar;
       lidars_.push_back(file_->add(lidar.topic, planar ? ros::kLaserScan : ros::kPointCloud, false));
+    }
+    for (const SensorRecord& sensor : recording_.sensors) {
+      std::vector<std::uint32_t>& topics = sensors_.emplace_back();
+      for (const ReadingFormat::Topic& topic : sensor.format->topics())
+        topics.push_back(file_->add(sensor.topic + topic.suffix, *topic.type, false));
     }
   }
 
@@ -220,6 +235,8 @@ class RosRecorder : public Recorder {
     robots_->add_transforms(fixed);
     for (const LidarRecord& lidar : recording_.lidars)
       fixed.push_back({lidar.frame_id, lidar.rig_from_lidar, recording_.frame_of(lidar.carrier)});
+    for (const SensorRecord& sensor : recording_.sensors)
+      fixed.push_back({sensor.frame_id, sensor.rig_from_sensor, recording_.frame_of(sensor.carrier)});
     send(tf_static_, frame,
          ros::transforms(version_, header(frame, recording_.rig), fixed));
     robots_->write_descriptions(frame.stamp_ns);
@@ -309,10 +326,12 @@ class RosRecorder : public Recorder {
   std::int64_t clock_ns_ = -1;             // of the last tick
   std::vector<std::uint32_t> imu_counts_;   // readings of each unit
   std::vector<std::uint32_t> scan_counts_;  // scans of each LiDAR
+  std::vector<std::uint32_t> reading_counts_;  // of each other sensor
   // Numbers of the topics.
   std::uint32_t clock_ = 0, tf_static_ = 0, tf_ = 0, pose_ = 0, legend_ = 0;
   std::vector<CameraTopics> cameras_;
   std::vector<std::uint32_t> imus_, lidars_;
+  std::vector<std::vector<std::uint32_t>> sensors_;
   std::unique_ptr<RobotTopics> robots_;
   std::vector<RobotSample> early_;  // that came before the first frame
 };

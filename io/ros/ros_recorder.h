@@ -13,6 +13,7 @@
 //   /imu                        sensor_msgs/Imu, each at its own stamp
 //   /points                     sensor_msgs/PointCloud2, a scan of a LiDAR at the stamp of its first ray
 //   /scan                       sensor_msgs/LaserScan, of a 2-D scanner
+//   /NAME                       other sensors, in the messages of their kinds (docs/reference/sensors.md)
 //   /ground_truth/depth/image   32FC1, m: exact, where the depth above is that of a sensor
 //   /ground_truth/NAME/image    streams of ground truth, by their names and in the encodings that their
 //                               types have; a piece number is 32SC1: -1: ground; -2: nothing

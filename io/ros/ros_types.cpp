@@ -113,6 +113,34 @@ const MessageType kPointCloud{"sensor_msgs", "PointCloud2", "1158d486dd51d683ce2
 const MessageType kLaserScan{"sensor_msgs", "LaserScan", "90c7ef2dc6895d81024acba2ac42f369",
                              "Header header\n" SCAN HEADER1, "std_msgs/Header header\n" SCAN HEADER2};
 
+#define RANGE                                                                      \
+  "uint8 ULTRASOUND=0\nuint8 INFRARED=1\nuint8 radiation_type\nfloat32 field_of_view\n" \
+  "float32 min_range\nfloat32 max_range\nfloat32 range\n"
+const MessageType kRange{"sensor_msgs", "Range", "c005c34273dc426c67a020a87bc24148",
+                         "Header header\n" RANGE HEADER1, "std_msgs/Header header\n" RANGE HEADER2};
+
+const MessageType kBool{"std_msgs", "Bool", "8b94c1b53db61fb6aed406028ad6332a", "bool data\n", "bool data\n"};
+
+const MessageType kFluidPressure{"sensor_msgs", "FluidPressure", "804dc5cea1c5306d6a2eb80b9833befe",
+                                 "Header header\nfloat64 fluid_pressure\nfloat64 variance\n" HEADER1,
+                                 "std_msgs/Header header\nfloat64 fluid_pressure\nfloat64 variance\n" HEADER2};
+
+#define MAGNETIC "geometry_msgs/Vector3 magnetic_field\nfloat64[9] magnetic_field_covariance\n"
+const MessageType kMagneticField{"sensor_msgs", "MagneticField", "2f3b0b43eed0c9501de0fa3ff89a45aa",
+                                 "Header header\n" MAGNETIC HEADER1 VECTOR, "std_msgs/Header header\n" MAGNETIC HEADER2 VECTOR};
+
+// ROS 1 sums constants up with the blanks around their "=" as they stand in its files, but without those here.
+#define FIX                                                                                              \
+  "NavSatStatus status\nfloat64 latitude\nfloat64 longitude\nfloat64 altitude\n"                         \
+  "float64[9] position_covariance\nuint8 COVARIANCE_TYPE_UNKNOWN=0\nuint8 COVARIANCE_TYPE_APPROXIMATED=1\n" \
+  "uint8 COVARIANCE_TYPE_DIAGONAL_KNOWN=2\nuint8 COVARIANCE_TYPE_KNOWN=3\nuint8 position_covariance_type\n"
+#define FIX_STATUS                                                                                     \
+  SECTION("sensor_msgs/NavSatStatus")                                                                  \
+  "int8 STATUS_NO_FIX=-1\nint8 STATUS_FIX=0\nint8 STATUS_SBAS_FIX=1\nint8 STATUS_GBAS_FIX=2\nint8 status\n" \
+  "uint16 SERVICE_GPS=1\nuint16 SERVICE_GLONASS=2\nuint16 SERVICE_COMPASS=4\nuint16 SERVICE_GALILEO=8\nuint16 service\n"
+const MessageType kNavSatFix{"sensor_msgs", "NavSatFix", "2d3a8cd499b9b4a0249fb98fd05cfa48",
+                             "Header header\n" FIX HEADER1 FIX_STATUS, "std_msgs/Header header\n" FIX HEADER2 FIX_STATUS};
+
 const MessageType kEventArray{
     "dvs_msgs", "EventArray", "5e8beee5a6c107e504c2e78903c224b8",
     "Header header\n" EVENTS HEADER1 SECTION(

@@ -31,6 +31,7 @@ struct RobotLink {
   // the axis, where this direction does not exist, the surface stands still.
   Vec3 belt_axis;
   double belt_speed_limit = 0;  // unit: m/s; >= 0
+  int belt_side = 0;            // of a belt that a twist drives: 1: left, -1: right; 0: none does
   // The tip of a growing robot grows along this axis (link's frame, unit length; zero: no tip). Its wall turns
   // outwards, so the surface at its sides stands still while the tip advances.
   Vec3 eversion_axis;

@@ -30,6 +30,7 @@ RobotLink make_track(const char* name, double y, const CrawlerOptions& options) 
   link.friction = options.friction;
   link.belt_axis = {0, 1, 0};
   link.belt_speed_limit = options.speed;
+  link.belt_side = y > 0 ? 1 : -1;
   RobotLink solid = link;  // the parts overlap: mass as of one prism
   solid.parts = {make_paddle(kWheelRadius, kWheelRadius, kTrackWidth, kCrawlerFacets,
                              {-0.5 * kTrackLength, y, kWheelRadius},
@@ -50,6 +51,7 @@ RobotLink make_flipper(const char* name, double direction, double side, const Cr
   link.friction = options.friction;
   link.belt_axis = {0, 1, 0};
   link.belt_speed_limit = options.speed;
+  link.belt_side = side > 0 ? 1 : -1;
   set_mass(kFlipperMass, link);
   link.looks = make_flipper_looks({kFlipperLength, kFlipperWidth, kTipRadius, kHubRadius}, direction, side);
   return link;

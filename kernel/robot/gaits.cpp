@@ -65,15 +65,12 @@ RobotCommand calc_gait(const RobotModel& model, const SnakeGait& gait, double ti
   return command;
 }
 
-RobotCommand drive_crawler(const RobotModel& model, const Twist& twist,
+RobotCommand drive_tracks(const RobotModel& model, const Twist& twist,
                            const std::vector<double>& flippers) {
   RobotCommand command;
-  const double apart = 0.5 * kCrawlerTrackDistance * twist.angular;
-  for (const RobotLink& link : model.links) {
-    const bool left = link.name.find("left") != std::string::npos;
-    const bool belt = norm(link.belt_axis) > 0;
-    command.belts.push_back(!belt ? 0 : left ? twist.linear - apart : twist.linear + apart);
-  }
+  const double apart = 0.5 * model.sides.distance * twist.angular;
+  for (const RobotLink& link : model.links)
+    command.belts.push_back(link.belt_side == 0 ? 0 : link.belt_side > 0 ? twist.linear - apart : twist.linear + apart);
   std::size_t flipper = 0;
   for (const RobotJoint& joint : model.joints) {
     MotorCommand motor;

@@ -32,7 +32,7 @@ struct Twist {
   double angular = 0;  // unit: rad/s
 };
 // Speeds of tracks or wheels for a twist without slip. flippers: angles by joint; unit: rad.
-RobotCommand drive_crawler(const RobotModel& model, const Twist& twist,
+RobotCommand drive_tracks(const RobotModel& model, const Twist& twist,
                            const std::vector<double>& flippers);
 // Drives the wheels of model.sides. Other motors keep the initial positions of their joints.
 RobotCommand drive_wheels(const RobotModel& model, const Twist& twist);

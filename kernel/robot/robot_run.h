@@ -29,7 +29,7 @@ struct RobotRunOptions {
   double step = 1.0 / 240;      // unit: s; range: 1/1000 to 1/30
   int substeps = 4;             // of the contact solver in a step; range: 1 to 64
   double control_hz = 60;       // rounded to whole steps; range: 1 to 1000
-  double track_hz = 60;         // samples of the track; rounded to whole steps; range: 1 to 1000
+  double track_hz = 60;         // samples of the track; rounded to whole steps; range: 1 to 1000; 0: none
   bool fixed_debris = false;    // true: the pile never moves
   double gravity = 9.81;        // unit: m/s2, downwards
   double lost_below = -0.5;     // unit: m
@@ -75,6 +75,8 @@ class RobotRun {
 
   const World& world() const { return world_; }
   std::int64_t steps() const { return steps_; }  // since begin()
+  // So far: final up to its last sample. Until finish().
+  const Track& track() const { return recorder_.track(); }
 
  private:
   struct Driven {

@@ -20,9 +20,9 @@ for _place in ("assets", _os.path.join("..", "..", "assets")):
 from ._core import InputError, Pile, RunError, __version__, open_pile, set_sandbox, settle  # noqa: E402
 from .dataset import Dataset, open_dataset  # noqa: E402
 from .geometry import compose, look_at, matrix, pose, rotate  # noqa: E402
-from .robots import RobotWorld  # noqa: E402
+from .robots import RobotWorld, Session  # noqa: E402
 from .sensors import DepthCamera, Lidar, Renderer  # noqa: E402
 
 __all__ = ["Dataset", "DepthCamera", "InputError", "Lidar", "Pile", "Renderer", "RobotWorld", "RunError",
-           "__version__", "compose", "look_at", "matrix", "open_dataset", "open_pile", "pose", "rotate",
+           "Session", "__version__", "compose", "look_at", "matrix", "open_dataset", "open_pile", "pose", "rotate",
            "set_sandbox", "settle"]

@@ -155,6 +155,24 @@ class Dataset:
         stamps, rows = self._messages(topic, _imu)
         return stamps, np.array(rows)
 
+    def readings(self, name: str) -> tuple[NDArray[np.int64], dict[str, NDArray[np.float64]]]:
+        """(stamps, dict of arrays by column) of a range finder, bumper, attitude sensor, barometer, magnetometer or GNSS
+        receiver, by its name in the mission; units as sensors/NAME.csv says."""
+        path = os.path.join(self.folder, "sensors", name + ".csv")
+        if not os.path.exists(path):
+            raise _mistake(path, "name", "the dataset has no such sensor", "one of " + self._sensor_names())
+        with open(path) as table:
+            head = table.readline().rstrip("\n").split(",")
+            rows = [line.split(",") for line in table]
+        stamps = np.array([int(row[0]) for row in rows], np.int64)
+        values = np.array([row[1:] for row in rows], np.float64).reshape(len(rows), len(head) - 1)
+        return stamps, {column.split(" ")[0]: values[:, i] for i, column in enumerate(head[1:])}
+
+    def _sensor_names(self):
+        folder = os.path.join(self.folder, "sensors")
+        files = sorted(os.listdir(folder)) if os.path.isdir(folder) else []
+        return ", ".join(os.path.splitext(file)[0] for file in files) or "nothing: no sensors were recorded"
+
     def poses(self, topic: str = "/ground_truth/pose") -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         """(stamps, (n, 7) array): where the rig truly was."""
         stamps, rows = self._messages(topic, _pose)

@@ -40,3 +40,54 @@ class RobotWorld:
         """dict: time; links (n, 7) poses in the world; joint_positions, joint_speeds, joint_torques;
         contact_forces (n, 3) in the world; linear_velocity, angular_velocity of the first link; lost."""
         return self._made.state()
+
+
+class Session:
+    """The robots of the pile's own mission, with its surroundings, from its time 0: what `rubble run` does, step by step.
+    Samples have the bits of the recording. depth: whether cameras on robots give exact depth, by rays."""
+
+    def __init__(self, pile: _core.Pile, depth: bool = False, threads: int = 0) -> None:
+        self._made = _core._Session(pile._shared, depth, threads or pile.threads)
+
+    @property
+    def robots(self) -> list[str]:
+        """Their names, in the mission's order."""
+        return self._made.robots
+
+    @property
+    def time(self) -> float:
+        """Since the start; s."""
+        return self._made.time
+
+    def drive(self, robot: str, linear: float, angular: float = 0.0, flippers: Iterable[float] = ()) -> None:
+        """As RobotWorld.drive(), instead of what the mission says, from the robot's next control step on."""
+        self._made.drive(robot, linear, angular, list(flippers))
+
+    def grow(self, robot: str, speed: float, left: float = 0.0, up: float = 0.0) -> None:
+        """Likewise, as RobotWorld.grow()."""
+        self._made.grow(robot, speed, left, up)
+
+    def set_joints(self, robot: str, targets: Iterable[float]) -> None:
+        """Likewise: targets of all joints; rad, m."""
+        self._made.set_joints(robot, [float(t) for t in targets])
+
+    def follow_mission(self, robot: str) -> None:
+        """From now on the robot does again what the mission says."""
+        self._made.follow_mission(robot)
+
+    def step(self, seconds: float = 1 / 60) -> None:
+        """Goes on by whole steps of 1/240 s."""
+        self._made.step(seconds)
+
+    def observe(self) -> list[dict[str, Any]]:
+        """All samples of robots and of sensors on them since the last call, in order of `stamp` (ns): dicts with `kind`
+        (robot, imu, lidar, reading or camera), `sensor` (its name) and numpy arrays."""
+        return self._made.observe()
+
+    def state(self, robot: str) -> dict[str, Any]:
+        """As RobotWorld.state()."""
+        return self._made.state(robot)
+
+    def link_names(self, robot: str) -> list[str]:
+        """The links of state(), in order."""
+        return self._made.link_names(robot)

@@ -6,7 +6,6 @@ namespace rubble {
 namespace {
 
 constexpr std::int64_t kKnot = 50'000;       // between poses of the carrier; unit: ns
-constexpr std::int64_t kSlice = 5'000'000;   // of what moves and of dust; unit: ns
 constexpr int kGrain = 64;                   // rays that a thread takes at once
 
 Pose between(const Pose& a, const Pose& b, double share) {
@@ -82,7 +81,7 @@ LidarScan Lidar::take(int scan) {
   std::vector<LidarPoint> found(2 * rays.size());
   std::vector<std::uint8_t> counts(rays.size());
   const bool still = !world_->moves() && medium_.homogeneous();
-  const std::int64_t length = still ? duration + 1 : kSlice;
+  const std::int64_t length = still ? duration + 1 : kSceneStep;
   for (std::int64_t from = 0; from <= duration; from += length) {
     const auto first_after = [&](std::int64_t offset) {
       return std::size_t(std::partition_point(rays.begin(), rays.end(), [&](const PatternRay& r) {

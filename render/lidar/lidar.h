@@ -25,6 +25,9 @@ struct LidarPlace {
 
 class Lidar {
  public:
+  // A scan asks where things are up to that time after its last ray; unit: ns
+  static constexpr std::int64_t kSceneStep = 5'000'000;
+
   // medium: what the scene's air is, with its time zero at start_ns. seed: of all noise.
   Lidar(const LidarSpec& spec, std::shared_ptr<LidarWorld> world, LidarPlace place, const Medium& medium,
         std::uint64_t seed, int threads);

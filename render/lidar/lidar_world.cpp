@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/geometry/embree_tree.h"
@@ -31,19 +32,25 @@ RTCQuaternionDecomposition decompose(const Pose& pose, float scale) {
 struct LidarWorld::Tree : EmbreeTree {
   struct Mover {
     RTCGeometry geometry = nullptr;  // owned by the tree
-    std::uint32_t mesh = 0;
-    float scale = 1;
+    SceneInstance instance;
     Quat rotation;  // at the first time of the span
-    std::int32_t piece = -1;
+    bool stands = false;  // it has not left its place, and is part of `standing`
+    std::optional<std::pair<std::optional<Pose>, std::optional<Pose>>> spanned;  // poses at both times of the last span
   };
 
   std::map<std::uint32_t, std::vector<std::uint16_t>> mesh_looks;  // of those that move, as looks_of()
-  std::vector<std::uint16_t> resting_looks;
   std::vector<float> paint_reds;  // mean red albedo of painted surfaces
   std::map<const TriangleMesh*, std::vector<std::uint16_t>> known_looks;  // by looks_of()
-  std::vector<std::uint32_t> resting_ends;   // of each instance that rests, one past its last triangle
-  std::vector<std::int32_t> resting_pieces;  // its id
+  // Instances as one mesh in the world.
+  struct Merged {
+    std::vector<std::uint16_t> looks;  // by triangle
+    std::vector<std::uint32_t> ends;   // of each instance, one past its last triangle
+    std::vector<std::int32_t> pieces;  // its id
+  };
+  Merged resting_mesh, standing_mesh;
+  RTCScene standing_scene = nullptr;  // of movers that have not left their places; built anew when one does
   std::vector<Mover> movers;
+  std::vector<std::shared_ptr<const SceneMesh>> scene_meshes;
   SceneMotion motion;
   bool ground = true;
 
@@ -52,10 +59,17 @@ struct LidarWorld::Tree : EmbreeTree {
     static_assert(sizeof(triangles.front()) == 3 * sizeof(std::uint32_t));
     EmbreeTree::attach(to, positions, triangles.empty() ? nullptr : triangles.front().data(), triangles.size());
   }
+  ~Tree() {
+    if (standing_scene) rtcReleaseScene(standing_scene);
+  }
   const std::vector<std::uint16_t>& looks_of(const TriangleMesh& mesh);
+  Merged merge(const std::vector<const SceneInstance*>& instances, RTCScene into);
   void add_resting(const Scene& from);
   void add_movers(const Scene& from);
+  void place_at_rest(RTCScene of, unsigned number);
+  void stand_up(const std::vector<std::uint8_t>& stands);
   void intersect(const Ray* rays, std::size_t count, double max_distance, RTCRayHit8& query) const;
+  const Merged* merged_of(unsigned instance) const;
   std::int32_t piece_of(unsigned primitive, unsigned instance) const;
   Hit read(unsigned primitive, unsigned instance, const Vec3f& normal, const Ray& ray, double t) const;
   // Where a ray that has met something at `before` (negative: nothing) meets the ground first; negative: it does not.
@@ -66,32 +80,68 @@ struct LidarWorld::Tree : EmbreeTree {
   }
 };
 
-void LidarWorld::Tree::add_resting(const Scene& from) {
-  std::vector<std::uint8_t> moves(from.instances.size(), 0);
-  for (const std::uint32_t i : from.motion.moving) moves.at(i) = 1;
+LidarWorld::Tree::Merged LidarWorld::Tree::merge(const std::vector<const SceneInstance*>& instances, RTCScene into) {
+  Merged merged;
   std::vector<Vec3f> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  for (std::size_t i = 0; i < from.instances.size(); ++i) {
-    if (moves[i]) continue;
-    const SceneInstance& piece = from.instances[i];
-    const TriangleMesh& mesh = from.meshes.at(piece.mesh)->levels.front();
+  for (const SceneInstance* piece : instances) {
+    const TriangleMesh& mesh = scene_meshes.at(piece->mesh)->levels.front();
     const auto base = std::uint32_t(positions.size());
     for (const Vec3f& p : mesh.positions)
-      positions.push_back(Vec3f(piece.world_from_body * (Vec3(p) * double(piece.scale))));
+      positions.push_back(Vec3f(piece->world_from_body * (Vec3(p) * double(piece->scale))));
     for (const auto& t : mesh.triangles) triangles.push_back({base + t[0], base + t[1], base + t[2]});
     const std::vector<std::uint16_t>& looks = looks_of(mesh);
-    resting_looks.insert(resting_looks.end(), looks.begin(), looks.end());
-    resting_ends.push_back(std::uint32_t(triangles.size()));
-    resting_pieces.push_back(std::int32_t(piece.id));
+    merged.looks.insert(merged.looks.end(), looks.begin(), looks.end());
+    merged.ends.push_back(std::uint32_t(triangles.size()));
+    merged.pieces.push_back(std::int32_t(piece->id));
   }
-  if (from.motion.moving.empty()) return attach(scene, positions, triangles);
-  resting = new_scene();
-  attach(resting, positions, triangles);
-  rtcCommitScene(resting);
-  const RTCGeometry instance = attach_instance(resting, kResting);
+  attach(into, positions, triangles);
+  return merged;
+}
+
+// An instance in the world's own frame.
+void LidarWorld::Tree::place_at_rest(RTCScene of, unsigned number) {
+  rtcCommitScene(of);
+  const RTCGeometry instance = attach_instance(of, number);
   const RTCQuaternionDecomposition there = decompose({}, 1);
   rtcSetGeometryTransformQuaternion(instance, 0, &there);
   rtcCommitGeometry(instance);
+}
+
+void LidarWorld::Tree::add_resting(const Scene& from) {
+  std::vector<std::uint8_t> moves(from.instances.size(), 0);
+  for (const std::uint32_t i : from.motion.moving) moves.at(i) = 1;
+  std::vector<const SceneInstance*> still;
+  for (std::size_t i = 0; i < from.instances.size(); ++i)
+    if (!moves[i]) still.push_back(&from.instances[i]);
+  if (from.motion.moving.empty()) {
+    resting_mesh = merge(still, scene);
+    return;
+  }
+  resting = new_scene();
+  resting_mesh = merge(still, resting);
+  place_at_rest(resting, kResting);
+}
+
+// stands: by mover.
+void LidarWorld::Tree::stand_up(const std::vector<std::uint8_t>& stands) {
+  std::vector<const SceneInstance*> standing;
+  for (std::size_t i = 0; i < movers.size(); ++i) {
+    movers[i].stands = stands[i];
+    if (!stands[i]) continue;
+    standing.push_back(&movers[i].instance);
+    rtcDisableGeometry(movers[i].geometry);
+  }
+  const unsigned number = kResting + 1 + unsigned(movers.size());
+  if (standing_scene) {
+    rtcDetachGeometry(scene, number);
+    rtcReleaseScene(standing_scene);
+  }
+  standing_scene = nullptr;
+  if (standing.empty()) return;
+  standing_scene = new_scene();
+  standing_mesh = merge(standing, standing_scene);
+  place_at_rest(standing_scene, number);
 }
 
 void LidarWorld::Tree::add_movers(const Scene& from) {
@@ -107,8 +157,7 @@ void LidarWorld::Tree::add_movers(const Scene& from) {
     }
     const RTCGeometry geometry = attach_instance(of_mesh, kResting + 1 + unsigned(movers.size()));
     rtcSetGeometryTimeStepCount(geometry, 2);
-    const Mover mover{geometry, piece.mesh, piece.scale, {}, std::int32_t(piece.id)};
-    movers.push_back(mover);
+    movers.push_back({geometry, piece, {}, false, {}});
   }
 }
 
@@ -137,12 +186,12 @@ LidarWorld::Hit LidarWorld::Tree::read(unsigned primitive, unsigned instance, co
                                        const Ray& ray, double t) const {
   Vec3 out(normal);
   std::uint16_t look = 0;
-  if (instance == RTC_INVALID_GEOMETRY_ID || instance == kResting) {
-    look = resting_looks[primitive];
+  if (const Merged* at_rest = merged_of(instance)) {
+    look = at_rest->looks[primitive];
   } else {
     const Mover& mover = movers[instance - kResting - 1];
     out = mover.rotation.rotate(out);
-    look = mesh_looks.at(mover.mesh)[primitive];
+    look = mesh_looks.at(mover.instance.mesh)[primitive];
   }
   out = normalized(out);
   const double cosine = dot(out, ray.direction);
@@ -152,15 +201,22 @@ LidarWorld::Hit LidarWorld::Tree::read(unsigned primitive, unsigned instance, co
   return {t, float(std::fabs(cosine)), red, piece_of(primitive, instance)};
 }
 
+// Null: a mover.
+const LidarWorld::Tree::Merged* LidarWorld::Tree::merged_of(unsigned instance) const {
+  if (instance == RTC_INVALID_GEOMETRY_ID || instance == kResting) return &resting_mesh;
+  return instance - kResting - 1 < movers.size() ? nullptr : &standing_mesh;
+}
+
 std::int32_t LidarWorld::Tree::piece_of(unsigned primitive, unsigned instance) const {
-  if (instance != RTC_INVALID_GEOMETRY_ID && instance != kResting) return movers[instance - kResting - 1].piece;
-  const auto end = std::upper_bound(resting_ends.begin(), resting_ends.end(), primitive);
-  return resting_pieces[std::size_t(end - resting_ends.begin())];
+  const Merged* const at_rest = merged_of(instance);
+  if (!at_rest) return std::int32_t(movers[instance - kResting - 1].instance.id);
+  const auto end = std::upper_bound(at_rest->ends.begin(), at_rest->ends.end(), primitive);
+  return at_rest->pieces[std::size_t(end - at_rest->ends.begin())];
 }
 
 LidarWorld::LidarWorld(const Scene& from) : tree_(std::make_unique<Tree>()) {
   Tree& t = *tree_;
-  t.motion = from.motion, t.ground = from.ground;
+  t.scene_meshes = from.meshes, t.motion = from.motion, t.ground = from.ground;
   t.add_resting(from);
   t.add_movers(from);
   if (!moves()) t.commit();
@@ -174,8 +230,23 @@ void LidarWorld::span(std::int64_t from_ns, std::int64_t to_ns) {
   if (!moves()) return;
   const std::vector<std::optional<Pose>> begin = tree_->motion.poses_at(from_ns),
                                          end = tree_->motion.poses_at(to_ns);
+  const auto is_at_rest = [](const Tree::Mover& mover, const std::optional<Pose>& pose) {
+    return pose && *pose == mover.instance.world_from_body;
+  };
+  std::vector<std::uint8_t> stands(tree_->movers.size(), 0);
+  bool changed = false, others_stand = false;
+  for (std::size_t i = 0; i < tree_->movers.size(); ++i) {
+    const Tree::Mover& mover = tree_->movers[i];
+    stands[i] = tree_->motion.may_rest && is_at_rest(mover, begin[i]) && is_at_rest(mover, end[i]);
+    others_stand = others_stand || bool(stands[i]) != mover.stands;
+  }
+  if (others_stand) tree_->stand_up(stands), changed = true;
   for (std::size_t i = 0; i < tree_->movers.size(); ++i) {
     Tree::Mover& mover = tree_->movers[i];
+    if (mover.spanned && mover.spanned->first == begin[i] && mover.spanned->second == end[i]) continue;
+    mover.spanned.emplace(begin[i], end[i]);
+    if (mover.stands) continue;
+    changed = true;
     if (!begin[i] || !end[i]) {
       rtcDisableGeometry(mover.geometry);
       continue;
@@ -183,15 +254,15 @@ void LidarWorld::span(std::int64_t from_ns, std::int64_t to_ns) {
     Pose last = *end[i];  // the shorter way round
     const Quat &a = begin[i]->rotation, &b = last.rotation;
     if (a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z < 0) last.rotation = {-b.w, -b.x, -b.y, -b.z};
-    const RTCQuaternionDecomposition first = decompose(*begin[i], mover.scale),
-                                     second = decompose(last, mover.scale);
+    const RTCQuaternionDecomposition first = decompose(*begin[i], mover.instance.scale),
+                                     second = decompose(last, mover.instance.scale);
     rtcSetGeometryTransformQuaternion(mover.geometry, 0, &first);
     rtcSetGeometryTransformQuaternion(mover.geometry, 1, &second);
     mover.rotation = begin[i]->rotation;
     rtcEnableGeometry(mover.geometry);
     rtcCommitGeometry(mover.geometry);
   }
-  tree_->commit();
+  if (changed) tree_->commit();
 }
 
 void LidarWorld::Tree::intersect(const Ray* rays, std::size_t count, double max_distance, RTCRayHit8& query) const {

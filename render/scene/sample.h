@@ -1,5 +1,5 @@
-// One sample of one sensor, and the interface of sensors. Cameras, inertial units, LiDARs and robots are peers, each with
-// a rate of its own. A new type of sensor adds an alternative here.
+// One sample of one sensor, and the interface of sensors. Cameras, inertial units, LiDARs, robots and sensors that give a
+// few numbers are peers, each with a rate of its own.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,12 @@
 
 #include "render/scene/frame.h"
 #include "render/scene/lidar_scan.h"
+#include "render/scene/reading.h"
 #include "render/scene/robot_sample.h"
 
 namespace rubble {
 
-using Sample = std::variant<Frame, ImuSample, LidarScan, RobotSample>;
+using Sample = std::variant<Frame, ImuSample, LidarScan, RobotSample, Reading>;
 
 inline std::int64_t stamp_of(const Sample& sample) {
   return std::visit([](const auto& s) { return s.stamp_ns; }, sample);

@@ -134,6 +134,9 @@ struct SceneMotion {
   // be called in any order of stamps.
   std::function<std::vector<std::optional<Pose>>(std::int64_t stamp_ns)> poses_at;
   Aabb reach;  // of the origins of all moving instances at all times; unit: m
+  // Whether most of them never leave their world_from_body, as while nobody knows what will move: rays then meet those
+  // that have not left it as what rests.
+  bool may_rest = false;
 };
 
 struct Scene {

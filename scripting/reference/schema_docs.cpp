@@ -114,6 +114,22 @@ std::string named_section(const Schema& mission, const Schema& item, const Key& 
   return heading_of(of.path, "Tables by name. ", of.doc_text) + table_of_rows(rows);
 }
 
+// A kind of sensor: what all kinds have the same is in the table of the first.
+std::string sensor_section(const Schema& item, const Schema& first, const Key& of) {
+  std::string rows;
+  for (const Key& key : item.keys()) {
+    if (key.kind != KeyKind::value) continue;
+    const Key* const same = first.find(key.path);
+    if (!same || row(*same, key.path) != row(key, key.path)) rows += row(key, key.path);
+  }
+  return heading_of(of.path, "Tables by name. ", of.doc_text) + table_of_rows(rows);
+}
+
+bool is_sensor(const std::string& key) {
+  const auto& kinds = sensor_kinds();
+  return std::any_of(kinds.begin(), kinds.end(), [&](const SensorKind* kind) { return kind->key() == key; });
+}
+
 // One table for the keys of a group, then one for each group or list in it.
 std::string section(const Schema& schema, const std::string& pattern, const std::string& heading) {
   std::string rows, below;
@@ -125,7 +141,13 @@ std::string section(const Schema& schema, const std::string& pattern, const std:
         below += section(tables->make_item(0), "", heading_of(key->path, "List of tables. ", key->doc_text));
       } else if (const auto* named = std::get_if<NamedTables>(&slot)) {
         named->reset({named->example});
-        below += named_section(schema, named->make_item(0), *key);
+        const std::string first = sensor_kinds().front()->key();
+        if (is_sensor(key->path) && key->path != first) {
+          const Slot others = schema.find(first)->bind(0);
+          below += sensor_section(named->make_item(0), std::get<NamedTables>(others).make_item(0), *key);
+        } else {
+          below += named_section(schema, named->make_item(0), *key);
+        }
       } else {
         rows += row(*key, key->name());
       }

@@ -195,6 +195,7 @@ void check_labels(const Scenario& scenario, SensorNames& names) {
   }
   for (const ImuScenario& imu : all_imus(scenario)) names.label(scenario.imus.empty() ? "imu" : "imus." + imu.name, imu.name);
   for (const LidarScenario& lidar : scenario.lidars) names.label("lidars." + lidar.name, lidar.name);
+  for (const SensorItem& sensor : scenario.sensors) names.label(sensor.key(), sensor.name);
   const std::vector<std::string> robots = robot_names(scenario.robots);
   for (std::size_t i = 0; i < robots.size(); ++i)
     for (const char* what : {"_odometry", "_ground_truth"})
@@ -254,6 +255,17 @@ void check_all_names(const Scenario& scenario, SensorNames& names, std::vector<D
     }
     names.check(lidar.topic ? at + ".topic" : at, lidar_topic(scenario, i), true);
     names.check(lidar.frame_id ? at + ".frame_id" : at, lidar.frame_id.value_or(lidar.name + "_link"), false);
+  }
+  for (const SensorItem& sensor : scenario.sensors) {
+    if (!is_name(sensor.name)) {
+      mistakes.push_back({"", 0, sensor.key(), "not a name of a sensor",
+                          "a lower-case letter, then such letters, digits and underscores, 32 at most",
+                          "\"" + sensor.name + "\"", ""});
+      continue;
+    }
+    names.check(sensor.topic ? sensor.key() + ".topic" : sensor.key(), sensor.ros_topic(), true);
+    names.check(sensor.frame_id ? sensor.key() + ".frame_id" : sensor.key(), sensor.frame(), false);
+    if (sensor.figures->topics().size() > 1) names.reserve_below(sensor.ros_topic(), sensor.key());
   }
 }
 

@@ -54,6 +54,9 @@ struct RobotItem {
   // drive it and it has no odometry.
   std::vector<std::string> left_wheels{}, right_wheels{};
   double wheel_radius = 0.1;  // unit: m; range: 0.001 to 10
+  // Of a robot from a file: the links around which tracks run, instead of driven wheels.
+  std::vector<std::string> left_tracks{}, right_tracks{};
+  double track_speed = 1;  // at most; unit: m/s; range: 0.01 to 20
   std::string name{};  // empty: the model's, numbered
   Vec3 position;       // of its base frame, in the world; unit: m
   Vec3 rpy_deg;        // R = Rz(yaw) Ry(pitch) Rx(roll)

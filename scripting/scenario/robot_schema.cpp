@@ -92,12 +92,19 @@ void check_legs(const RobotItem& robot, std::size_t i, std::vector<Diagnostic>& 
   for (const auto& [member, given] : of_files)
     if (robot.urdf.empty() && given)
       mistakes.push_back({"", 0, key_of(i, member), "only a robot from a URDF file has these", "nothing", "a table", ""});
-  if (robot.urdf.empty() && (!robot.left_wheels.empty() || !robot.right_wheels.empty()))
-    mistakes.push_back({"", 0, key_of(i, robot.left_wheels.empty() ? "right_wheels" : "left_wheels"),
-                        "only a robot from a URDF file has these", "nothing", "a list", ""});
-  if (robot.left_wheels.empty() != robot.right_wheels.empty())
-    mistakes.push_back({"", 0, key_of(i, robot.left_wheels.empty() ? "left_wheels" : "right_wheels"),
-                        "missing", "both of left_wheels and right_wheels, or neither", "one of them", ""});
+  const auto check_sides = [&](const std::string& what, const std::vector<std::string>& left, const std::vector<std::string>& right) {
+    if (robot.urdf.empty() && (!left.empty() || !right.empty()))
+      mistakes.push_back({"", 0, key_of(i, (left.empty() ? "right_" : "left_") + what),
+                          "only a robot from a URDF file has these", "nothing", "a list", ""});
+    if (left.empty() != right.empty())
+      mistakes.push_back({"", 0, key_of(i, (left.empty() ? "left_" : "right_") + what), "missing",
+                          "both of left_" + what + " and right_" + what + ", or neither", "one of them", ""});
+  };
+  check_sides("wheels", robot.left_wheels, robot.right_wheels);
+  check_sides("tracks", robot.left_tracks, robot.right_tracks);
+  if (!robot.left_wheels.empty() && !robot.left_tracks.empty())
+    mistakes.push_back({"", 0, key_of(i, "left_tracks"), "contradicts left_wheels", "one of both", "both",
+                        "wheels inside of a track do not touch the ground: leave them out"});
   if (robot.control > 0 && !robot.drive.empty())
     mistakes.push_back({"", 0, key_of(i, "drive"), "contradicts control", "one of both", "both", ""});
 }
@@ -137,6 +144,7 @@ void check_senses(const Scenario& scenario, std::size_t i, std::vector<Diagnosti
     names.push_back(colour_sense(camera.name));
   }
   for (const ImuScenario& imu : all_imus(scenario)) names.push_back(imu.name);
+  for (const SensorItem& sensor : scenario.sensors) names.push_back(sensor.name);
   std::string all;
   for (const std::string& name : names) all += (all.empty() ? "one of " : ", ") + name;
   for (std::size_t k = 0; k < robot.senses.size(); ++k) {
@@ -188,14 +196,16 @@ void check_sensor_rides(const Scenario& scenario, const std::vector<std::string>
   check_carrier(scenario.imu.ride, "imu.ride", names, mistakes);
   for (const ImuScenario& imu : scenario.imus)
     check_carrier(imu.ride, "imus." + imu.name + ".ride", names, mistakes);
+  for (const SensorItem& sensor : scenario.sensors) check_carrier(sensor.ride, sensor.key() + ".ride", names, mistakes);
   const auto on_rig = [](const auto& sensor) { return !sensor.ride.on(); };
   const std::vector<ImuScenario> imus = all_imus(scenario);
   const bool unseen = !scenario.cameras.empty() &&
                       std::none_of(scenario.cameras.begin(), scenario.cameras.end(), on_rig);
   if (unseen && (std::any_of(imus.begin(), imus.end(), on_rig) ||
+                 std::any_of(scenario.sensors.begin(), scenario.sensors.end(), on_rig) ||
                  std::any_of(scenario.lidars.begin(), scenario.lidars.end(), on_rig)))
-    mistakes.push_back({"", 0, "cameras", "no camera is on the rig, but an IMU or LiDAR is",
-                        "a camera on the rig, or a `ride` for every IMU and LiDAR on it", "", ""});
+    mistakes.push_back({"", 0, "cameras", "no camera is on the rig, but another sensor is",
+                        "a camera on the rig, or a `ride` for every other sensor on it", "", ""});
   if (mixed && scenario.outputs.euroc)
     mistakes.push_back({"", 0, "outputs.euroc", "the format has one moving body",
                         "cameras on one carrier, or another format", "cameras on several", ""});
@@ -239,6 +249,12 @@ void add_robot_keys(Schema& k, Scenario& s) {
   k.item("robots[].wheel_radius", list, &RobotItem::wheel_radius, "URDF robot: radius of these wheels.")
       .between(0.001, 10)
       .unit("m");
+  k.item("robots[].left_tracks", list, &RobotItem::left_tracks,
+         "URDF robot: links around which the left tracks run, for `linear`, `angular` and odometry.");
+  k.item("robots[].right_tracks", list, &RobotItem::right_tracks, "URDF robot: likewise on the right.");
+  k.item("robots[].track_speed", list, &RobotItem::track_speed, "URDF robot: largest speed of these tracks.")
+      .between(0.01, 20)
+      .unit("m/s");
   k.item("robots[].name", list, &RobotItem::name,
          "Name in files and topics; not given: the model and a number.");
   k.item("robots[].position", list, &RobotItem::position,

@@ -115,12 +115,12 @@ void check_rawlog(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   if (scenario.outputs.rawlog_format == RawlogFormat::observations) return;
   const auto has_odometry = [](const RobotItem& robot) {
     return robot.urdf.empty() ? robot.model == RobotKind::crawler || robot.model == RobotKind::rover
-                              : !robot.left_wheels.empty();
+                              : !robot.left_wheels.empty() || !robot.left_tracks.empty();
   };
   const auto count = std::count_if(scenario.robots.begin(), scenario.robots.end(), has_odometry);
   if (count == 1) return;
   mistakes.push_back({"", 0, "outputs.rawlog_format", "actions need one robot with odometry",
-                      "one robot with odometry: a crawler, a rover, or a URDF robot with left_wheels and right_wheels",
+                      "one robot with odometry: a crawler, a rover, or a URDF robot with left_wheels or left_tracks",
                       std::to_string(count) + " of them", "\"observations\" has the odometry of every robot"});
 }
 
@@ -179,6 +179,7 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_sky(scenario.light, mistakes);
   check_cameras(scenario, mistakes);
   check_lidars(scenario, mistakes);
+  check_sensors(scenario.sensors, mistakes);
   check_sensor_names(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);
   check_stamps(scenario, mistakes);

@@ -22,6 +22,7 @@
 #include "scripting/scenario/camera_scenario.h"
 #include "scripting/scenario/lidar_scenario.h"
 #include "scripting/scenario/robot_scenario.h"
+#include "scripting/sensors/sensor_item.h"
 #include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
@@ -137,6 +138,7 @@ struct OutputScenario {
   bool track = false;               // motion of the pieces: track.bin and, as glTF animation, track.glb
   std::vector<std::string> meshes;  // the pile in further formats, of export_names()
   bool groundtruth = true;          // TUM: groundtruth.txt
+  bool sensors = true;              // tables of the readings of sensors: a folder
   bool preview = true;              // preview.png, a contact sheet
   DepthEncoding depth = DepthEncoding::millimetres;  // in bag and MCAP file
   PictureEncoding pictures = PictureEncoding::raw;   // in bag and MCAP file
@@ -191,6 +193,7 @@ struct Scenario {
   ImuScenario imu;                // in the camera
   std::vector<ImuScenario> imus;  // instead of `imu`: several, by name
   std::vector<LidarScenario> lidars;  // on the rig, by name
+  std::vector<SensorItem> sensors;  // of the other kinds, in the order of kinds, then by name
   RecordSettlingScenario record_settling;  // recording before the flight
   OutputScenario outputs;         // files
   VoidScenario voids;             // measurement of voids

@@ -372,6 +372,7 @@ void add_outputs(Schema& k, OutputScenario& o) {
   k.value("outputs.meshes", o.meshes,
           "The settled pile in further formats: any of `ply`, `obj`, `glb`, `sdf`.");
   k.value("outputs.groundtruth", o.groundtruth, "Poses of the camera in TUM format: groundtruth.txt.");
+  k.value("outputs.sensors", o.sensors, "Readings of range finders, bumpers and so on: sensors/NAME.csv, where the mission has any.");
   k.value("outputs.preview", o.preview, "A contact sheet of colour, depth and the first LiDAR's scans from above: preview.png.");
   k.choice("outputs.depth", o.depth, {"16UC1", "32FC1"},
            "Depth in bag and MCAP files: millimetres (0: none) or metres (NaN: none).");
@@ -427,6 +428,7 @@ Schema make_scenario_schema(Scenario& s) {
   add_trajectory(keys, s.trajectory);
   add_imu(keys, s);
   add_lidar_keys(keys, s);
+  add_sensor_keys(keys, s.sensors);
   add_record_settling(keys, s.record_settling);
   add_voids(keys, s.voids);
   add_robot_keys(keys, s);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 namespace rubble {
 namespace {
@@ -16,15 +15,8 @@ double inner(const Quat& a, const Quat& b) { return a.w * b.w + a.x * b.x + a.y 
 
 // Half the way from the neighbour before to the one after; at the ends to the only one.
 template <typename T>
-std::vector<T> central_differences(const std::vector<T>& values) {
-  std::vector<T> differences;
-  const std::size_t last = values.size() - 1;
-  for (std::size_t i = 0; i <= last; ++i) {
-    const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(last, i + 1);
-    differences.push_back(
-        scaled(sum(values[after], scaled(values[before], -1)), 1 / double(after - before)));
-  }
-  return differences;
+T central_difference(const T& before, const T& after, std::size_t steps) {
+  return scaled(sum(after, scaled(before, -1)), 1 / double(steps));
 }
 
 // HermiteWeights of the two values and the two tangents of a cubic Hermite curve.
@@ -48,25 +40,44 @@ T blend(const HermiteWeights& w, const T& from, const T& to, const T& leave, con
 
 }  // namespace
 
-SimulatedPath::SimulatedPath(std::vector<Pose> poses, double step, std::int64_t first)
-    : poses_(std::move(poses)), step_(step), first_(double(first)) {
-  if (poses_.size() < 2) throw std::logic_error("a simulated path of fewer than two poses");
-  std::vector<Vec3> positions;
-  std::vector<Quat> rotations;
-  for (Pose& pose : poses_) {
-    if (!rotations.empty() && inner(rotations.back(), pose.rotation) < 0)
-      pose.rotation = scaled(pose.rotation, -1);
-    positions.push_back(pose.translation);
-    rotations.push_back(pose.rotation);
-  }
-  velocities_ = central_differences(positions);
-  turnings_ = central_differences(rotations);
+SimulatedPath::SimulatedPath(const std::vector<Pose>& poses, double step) : step_(step) {
+  if (poses.size() < 2) throw std::logic_error("a simulated path of fewer than two poses");
+  for (const Pose& pose : poses) add(pose);
 }
 
-double SimulatedPath::duration() const { return step_ * (first_ + double(poses_.size() - 1)); }
+void SimulatedPath::add(Pose pose) {
+  if (!poses_.empty() && inner(poses_.back().rotation, pose.rotation) < 0) pose.rotation = scaled(pose.rotation, -1);
+  poses_.push_back(pose);
+  velocities_.emplace_back(), turnings_.emplace_back();
+  const std::size_t last = poses_.size() - 1;
+  if (last == 0) return;
+  set_tangents(last - 1);
+  set_tangents(last);
+}
+
+void SimulatedPath::set_tangents(std::size_t i) {
+  const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(poses_.size() - 1, i + 1);
+  const Pose &a = poses_[before], &b = poses_[after];
+  velocities_[i] = central_difference(a.translation, b.translation, after - before);
+  turnings_[i] = central_difference(a.rotation, b.rotation, after - before);
+}
+
+void SimulatedPath::clear() {
+  poses_.clear(), velocities_.clear(), turnings_.clear();
+  first_ = 0;
+}
+
+void SimulatedPath::forget_before(std::int64_t step) {
+  const std::int64_t gone = std::min(step, last_step() - 2) - first_;
+  if (gone <= 0) return;
+  poses_.erase(poses_.begin(), poses_.begin() + gone);
+  velocities_.erase(velocities_.begin(), velocities_.begin() + gone);
+  turnings_.erase(turnings_.begin(), turnings_.begin() + gone);
+  first_ += gone;
+}
 
 SimulatedPath::Place SimulatedPath::find(double t) const {
-  const double steps = std::clamp(t / step_ - first_, 0.0, double(poses_.size() - 1));
+  const double steps = std::clamp(t / step_ - double(first_), 0.0, double(poses_.size() - 1));
   Place place;
   place.step = std::min(std::size_t(steps), poses_.size() - 2);
   place.share = steps - double(place.step);

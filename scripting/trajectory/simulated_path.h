@@ -13,10 +13,19 @@ namespace rubble {
 // are continuous. In free fall by symplectic Euler steps the acceleration is exactly that of gravity.
 class SimulatedPath : public MotionPath {
  public:
-  // poses: one a step, from the step `first` on, which is at first * step; at least two. step: unit: s; > 0
-  SimulatedPath(std::vector<Pose> poses, double step, std::int64_t first = 0);
+  // poses: one a step, at least two. step: unit: s; > 0
+  SimulatedPath(const std::vector<Pose>& poses, double step);
 
-  double duration() const override;
+  // A path that grows: needs two poses before it is asked. The curve up to a step is final once the step after the next
+  // is there.
+  explicit SimulatedPath(double step) : step_(step) {}
+  void add(Pose pose);  // of the next step
+  void clear();
+  // Forgets the steps before that one, but for the last three.
+  void forget_before(std::int64_t step);
+
+  std::int64_t last_step() const { return first_ + std::int64_t(poses_.size()) - 1; }
+  double duration() const override { return step_ * double(last_step()); }
   Pose at(double t) const override;
   CameraMotion motion_at(double t) const override;
   bool is_simulated() const override { return true; }
@@ -27,12 +36,13 @@ class SimulatedPath : public MotionPath {
     double share = 0;      // how far along it; range: 0 to 1
   };
   Place find(double t) const;
+  void set_tangents(std::size_t i);
 
   std::vector<Pose> poses_;  // neighbouring quaternions less than half a turn apart
   std::vector<Vec3> velocities_;  // at the steps, of one step; unit: m
   std::vector<Quat> turnings_;    // likewise, of the quaternions' components
   double step_;
-  double first_;  // step of the first pose
+  std::int64_t first_ = 0;  // step of the first pose
 };
 
 }  // namespace rubble

@@ -128,16 +128,21 @@ const Allowed kIo = stack(
 const Allowed kVoidFiles = stack({"io/base/", "io/image/", "io/voids/", "io/ompl/"},
                                  {"kernel/base/", "kernel/geometry/voxel_grid.h", "kernel/voids/"});
 
+// A kind of sensor is one file: with the messages that its readings are.
+const Allowed kSensors{{"scripting/sensors/",
+                        {"kernel/base/", "scripting/values/", "scripting/trajectory/", "scripting/schema/", "scripting/sensors/",
+                         "io/recording/reading_format.h", "io/ros/ros_messages.h"}}};
+
 const Allowed kScripting = stack(
     {"scripting/values/", "scripting/trajectory/", "scripting/schema/", "scripting/files/", "scripting/sandbox/",
-     "scripting/packs/", "scripting/sky/", "scripting/scenario/", "scripting/reference/", "scripting/"},
+     "scripting/packs/", "scripting/sky/", "scripting/sensors/", "scripting/scenario/", "scripting/reference/", "scripting/"},
     {"kernel/base/", "kernel/model/everting_tube.h", "kernel/model/fines.h", "kernel/model/pile.h", "kernel/model/surroundings.h", "kernel/settling/settle.h",
      "render/scene/",
      "render/streams/image_streams.h", "io/image/data_picture.h"});
 
 const Allowed kApp = stack(
     {"app/support/", "app/formats/", "app/provenance/", "app/assets/", "app/measures/",
-     "app/estimate/", "app/planning/", "app/victims/", "app/fines/", "app/surroundings/", "app/scene/", "app/mission/", "app/sensors/", "app/robots/", "app/control/", "app/pipeline/", "app/batch/", "app/report/", "app/card/",
+     "app/estimate/", "app/planning/", "app/victims/", "app/fines/", "app/surroundings/", "app/scene/", "app/mission/", "app/sensors/", "app/robots/", "app/control/", "app/session/", "app/pipeline/", "app/batch/", "app/report/", "app/card/",
      "app/eval/scores/", "app/eval/sfm/", "app/eval/map/", "app/search/", "app/navigate/", "app/navigate_ros1/", "app/view/", "app/drive/", "app/command_line/",
      "app/commands/eval/", "app/commands/assets/", "app/commands/publish/", "app/commands/",
      "app/main.cpp"},
@@ -152,6 +157,7 @@ const Allowed& allowed_of(const std::string& file) {
   if (starts_with(file, "render/")) return kRender;
   if (starts_with(file, "io/voids/") || starts_with(file, "io/ompl/")) return kVoidFiles;
   if (starts_with(file, "io/")) return kIo;
+  if (starts_with(file, "scripting/sensors/")) return kSensors;
   if (starts_with(file, "scripting/")) return kScripting;
   return starts_with(file, "app/") ? kApp : kTop;
 }

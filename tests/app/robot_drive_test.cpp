@@ -1,12 +1,16 @@
 // A robot that is driven live, and the mission that is kept of it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "app/control/robot_control.h"
 #include "app/drive/robots/robot_drive.h"
 #include "app/mission/scenario_lua.h"
 #include "app/pipeline/stages.h"
 #include "app/robots/robot_files.h"
+#include "app/session/session.h"
 #include "io/state/track_file.h"
 #include "kernel/base/error.h"
 #include "kernel/robot/bundled.h"
@@ -29,7 +33,8 @@ const char* const kRobots = R"(return rubble.mission {
 
 // The mission, settled, and its robots.
 struct Driven {
-  explicit Driven(const ScratchFolder& scratch, const std::string& robot, const char* text = kRobots) : context(options()) {
+  explicit Driven(const ScratchFolder& scratch, const std::string& robot, const char* text = kRobots, bool sensed = false)
+      : context(options(sensed)) {
     write_file(scratch / "m.lua", text);
     RunRequest request;
     request.mission = scratch / "m.lua";
@@ -37,9 +42,10 @@ struct Driven {
     pile = settle_in_memory(mission, context, [] { return true; }).state;
     drive = std::make_unique<RobotDrive>(mission, pile, robot, context);
   }
-  static RunOptions options() {
+  static RunOptions options(bool sensed) {
     RunOptions options;
     options.quiet = true;
+    options.live.ros1 = sensed;
     return options;
   }
   // Frames 1 to `frames`, at 30 Hz; the wish by the frame.
@@ -56,7 +62,7 @@ struct Driven {
 // What a run of the kept mission does, against what was driven.
 void expect_same_bits(const ScratchFolder& scratch, Driven& driven, const std::string& in = "") {
   write_file(scratch / (in + "leg.lua"), scenario_to_lua(driven.drive->scenario(driven.mission.scenario), "kept"));
-  save_track(driven.drive->finish().track, scratch / "leg.track");
+  save_track(driven.drive->finish(), scratch / "leg.track");
   const Outcome run = run_rubble("run " + (scratch / (in + "leg.lua")) + " --quiet --set trajectory.rate_hz=0.5 --out " +
                                  (scratch / "out"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -175,6 +181,63 @@ TEST(RobotDrive, SeesFinesAndSurroundingsStandStill) {
   for (const std::uint32_t i : scene.motion.moving) EXPECT_FALSE(scene.instances[i].surrounds);
   EXPECT_LT(scene.motion.reach.max.x, 30) << "a street does not go along";
   EXPECT_EQ(scene.motion.poses_at(0).size(), scene.motion.moving.size());
+}
+
+// What a sample holds that may differ, as bytes.
+std::string bytes_of(const Sample& sample) {
+  std::string bytes;
+  const auto add = [&bytes](const auto& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  add(stamp_of(sample));
+  if (const auto* scan = std::get_if<LidarScan>(&sample))
+    for (const LidarPoint& p : scan->points) add(p.x), add(p.y), add(p.z), add(p.intensity), add(p.time), add(p.ring);
+  if (const auto* reading = std::get_if<ImuSample>(&sample)) add(reading->angular_velocity), add(reading->linear_acceleration);
+  if (const auto* robot = std::get_if<RobotSample>(&sample)) {
+    add(robot->world_from_base);
+    for (const RobotSample::Wrench& contact : robot->contacts) add(contact);
+  }
+  return bytes;
+}
+
+// Bricks that are pushed before its LiDAR, within a street: contacts and samples of the drive are those of a session of
+// the mission that it leaves.
+TEST(RobotDrive, SensesWhatTheKeptMissionSenses) {
+  const ScratchFolder scratch;
+  Driven driven(scratch, "tank", R"(return rubble.mission {
+    seed = 3,
+    pile = { layers = 1, pieces_per_layer = 6, spawn_bounds = { 0.5, 0.5, 0.4 }, mix = { { asset = "brick" } } },
+    surroundings = { type = "street", reach = 40 },
+    robots = { rubble.robot.crawler { name = "tank", position = { -1, 0, 0.001 } } },
+    lidars = { top = { model = "utm30lx", ride = { robot = "tank" }, position = { 0.2, 0, 0.3 }, rpy_deg = { 0, 10, 0 } } },
+    imu = { on = true, ride = { robot = "tank" } }, camera = { width = 32, height = 24 },
+  })", true);
+  std::vector<Sample> sensed;
+  for (int i = 1; i <= 30; ++i) {
+    RobotWish wish;
+    wish.linear.x = 0.6, wish.angular.z = i > 15 ? 0.5 : 0;
+    driven.drive->advance(wish, i / 30.0);
+    for (Sample& sample : driven.drive->take_sensed()) sensed.push_back(std::move(sample));
+  }
+  ResolvedMission kept = driven.mission;
+  kept.scenario = driven.drive->scenario(driven.mission.scenario);
+  SessionOptions options;
+  options.observed = true;
+  Session session(kept, driven.pile, make_robots(kept, driven.context), driven.context, options);
+  session.start();
+  while (session.steps() < session.steps_of_mission()) session.step();
+  const std::vector<Sample> again = session.observe();
+  ASSERT_EQ(sensed.size(), again.size());
+  std::array<int, 8> kinds{};
+  for (const Sample& sample : sensed) ++kinds[sample.index()];
+  EXPECT_GT(kinds[Sample(LidarScan()).index()], 30);
+  EXPECT_GT(kinds[Sample(ImuSample()).index()], 150);
+  const auto in_order = [](const Sample& a, const Sample& b) { return stamp_of(a) < stamp_of(b); };
+  std::stable_sort(sensed.begin(), sensed.end(), in_order);
+  for (std::size_t i = 0; i < sensed.size(); ++i) ASSERT_TRUE(bytes_of(sensed[i]) == bytes_of(again[i])) << i;
+  const DrivenRobots end = session.finish();
+  EXPECT_GT(end.pieces_moved, 0) << "a mission in which nothing moves shows nothing";
+  EXPECT_EQ(end.moved.track.hash(), driven.drive->finish().hash());
 }
 
 // Then only robots are lit anew for every picture.

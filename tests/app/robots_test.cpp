@@ -383,7 +383,7 @@ TEST(Robots, SensorsOnRobotsThatCannotCarryThemAreMistakesWithTheirLine) {
       {"imu = { ride = { link = \"mast\" } }", "m.lua:3: imu.ride.link: a link without a robot"},
       {"imu = true, imus = { a = {} }", "m.lua:3: imu.on: contradicts imus"},
       {"cameras = { a = { ride = { robot = \"r\" } } }, imu = true",
-       "m.lua:3: cameras: no camera is on the rig, but an IMU or LiDAR is"},
+       "m.lua:3: cameras: no camera is on the rig, but another sensor is"},
       {"outputs = { euroc = true }, cameras = { a = { ride = { robot = \"r\" } }, b = {} }",
        "m.lua:3: outputs.euroc: the format has one moving body"},
   };

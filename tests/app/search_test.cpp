@@ -144,7 +144,7 @@ TEST(Victims, ArePushedByARobotThatIsHeavyEnough) {
     RobotRun run(make_laid_pile(settled.mission, settled.pile), settled.pile, options);
     RobotModel model = make_crawler();
     for (RobotLink& link : model.links) link.mass *= mass, link.inertia = link.inertia * mass;
-    run.add(model, start, [&](const RobotSense&) { return drive_crawler(model, {speed, 0}, {1, 1, 1, 1}); });
+    run.add(model, start, [&](const RobotSense&) { return drive_tracks(model, {speed, 0}, {1, 1, 1, 1}); });
     Push push;
     run.run([&](double) {
       for (const RobotContact& contact : run.world().robot_contacts(0))

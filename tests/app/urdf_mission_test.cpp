@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 
 #include "app/robots/robot_files.h"
 #include "app/robots/robot_log.h"
 #include "kernel/robot/bundled.h"
+#include "kernel/robot/gaits.h"
+#include "kernel/robot/robot_run.h"
 #include "tests/app/urdf_robots.h"
 
 namespace rubble::testing {
@@ -38,6 +41,57 @@ TEST(Urdf, FramesOfRobotsDoNotClashWithThoseOfSensors) {
   EXPECT_EQ(record_of("mast").frame, "") << "bot/mast is another frame than mast";
   scenario.imu.frame_id = "bot/camera_link";
   EXPECT_THROW(record_of("camera_link"), InputError);
+}
+
+// The bundled crawler by its file, with names that say nothing of sides: its tracks are those that the mission names.
+TEST(Urdf, TracksAreThoseOfTheMission) {
+  CrawlerOptions options;
+  options.flippers = false;
+  const RobotModel bundled = make_crawler(options);
+  const ScratchFolder scratch;
+  write_robot_description(scratch.path().string(), "tank", bundled);
+  for (const auto& [from, to] : {std::pair{"left_track", "port"}, {"right_track", "starboard"}}) {
+    std::string text = read_file(scratch / "tank.urdf");
+    for (std::size_t at = 0; (at = text.find("\"" + std::string(from) + "\"", at)) != std::string::npos;)
+      text.replace(at + 1, std::string(from).size(), to);
+    write_file(scratch / "tank.urdf", text);
+  }
+  RobotItem item;
+  item.urdf = scratch / "tank.urdf";
+  item.left_tracks = {"port"}, item.right_tracks = {"starboard"}, item.track_speed = options.speed;
+  MeshImporter importer;
+  const MissionRobot read = make_mission_robot(item, {""}, "robots[1]", importer);
+  EXPECT_NEAR(read.model.sides.distance, kCrawlerTrackDistance, 1e-6);
+  ASSERT_EQ(read.model.links.size(), 3u);  // welds, yet bodies of their own
+
+  const auto end_of = [](const RobotModel& model, const Twist& twist) {
+    RobotRunOptions run_options;
+    run_options.duration = 2, run_options.threads = 1;
+    RobotRun run({}, {}, run_options);
+    run.add(model, {{}, {0, 0, 0.001}}, [&](const RobotSense&) { return drive_tracks(model, twist, {}); });
+    run.run();
+    return run.world().robot_state(0).links[0].world_from_link;
+  };
+  const Pose ahead = end_of(read.model, {0.3, 0}), as_bundled = end_of(bundled, {0.3, 0});
+  EXPECT_NEAR(ahead.translation.x, as_bundled.translation.x, 0.02);
+  EXPECT_GT(ahead.translation.x, 0.5);
+  EXPECT_NEAR(ahead.translation.y, 0, 0.02);
+  const Vec3 nose = end_of(read.model, {0, 1}).rotation.rotate({1, 0, 0});
+  EXPECT_GT(nose.y, 0.3) << "a positive rate of turn is to the left";
+
+  const auto mistake_of = [&](const std::function<void(RobotItem&)>& change) {
+    RobotItem wrong = item;
+    change(wrong);
+    try {
+      make_mission_robot(wrong, {""}, "robots[1]", importer);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(mistake_of([](RobotItem& r) { std::swap(r.left_tracks, r.right_tracks); }).find("robots[1].left_tracks: the left tracks are not left"),
+            std::string::npos);
+  EXPECT_NE(mistake_of([](RobotItem& r) { r.left_tracks = {"prot"}; }).find("robots[1].left_tracks: the robot has no such link"), std::string::npos);
 }
 
 // Through the program: a mission with a file beside it, verified from its manifest.

@@ -40,14 +40,46 @@ TEST_F(View, HoldsThePiecesTheWayAndPictures) {
   ASSERT_EQ(data.at("types").size(), 1u);
   // 16 matrices of 16 floats, three characters of four for each byte.
   EXPECT_EQ(data.at("types")[0].at("instances").get<std::string>().size(), (16u * 64 + 2) / 3 * 4);
-  EXPECT_EQ(data.at("track").at("stamps").size(), 3u);
-  ASSERT_EQ(data.at("frames").size(), 2u);
-  EXPECT_EQ(data.at("frames")[1].at("frame"), 2);
-  EXPECT_EQ(data.at("frames")[0].at("jpeg").get<std::string>().substr(0, 4), "/9j/");
+  ASSERT_EQ(data.at("tracks").size(), 1u);
+  const nlohmann::json& way = data.at("tracks")[0];
+  EXPECT_EQ(way.at("stamps").size(), 3u);
+  ASSERT_EQ(way.at("frames").size(), 2u);
+  EXPECT_EQ(way.at("frames")[1].at("frame"), 2);
+  EXPECT_EQ(way.at("frames")[0].at("jpeg").get<std::string>().substr(0, 4), "/9j/");
+  EXPECT_TRUE(data.at("robots").empty());
   EXPECT_TRUE(data.at("voids").empty());
   EXPECT_IN("InstancedMesh", page);
   for (const char* outside : {"src=\"http", "src=\"/", "href=\"http", "@import", "importScripts("})
     EXPECT_EQ(page.find(outside), std::string::npos) << outside << " leads out of the page";
+}
+
+// Two cameras on a rover: the way and the pictures of each, and the links of the robot with a pose for each moment.
+TEST_F(View, HoldsTheCamerasOfARigAndTheRobotsLinks) {
+  write_file(scratch / "rover.lua", R"(return rubble.mission {
+  pile = { layers = 0, placed = { { box = { 0.2, 2, 1 }, position = { 3, 0, 0.5 } } } },
+  robots = { rubble.robot.rover { name = "rover", position = { 0, 0, 0.001 }, drive = { { t = 0, linear = 0.5 } } } },
+  robot_run = { duration = 1 },
+  cameras = { front = { width = 32, height = 24, ride = { robot = "rover" }, position = { 0.3, 0, 0.3 }, rate_hz = 4 },
+              watch = { width = 32, height = 24 } },
+  trajectory = { rate_hz = 2, waypoints = { { t = 0, position = { -2, 0, 1 }, look_at = { 0, 0, 0 } }, { t = 1, position = { -2, 1, 1 }, look_at = { 0, 0, 0 } } } },
+})");
+  const Outcome run = run_rubble("run " + (scratch / "rover.lua") + " --quiet --out " + (scratch / "r"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Outcome made = run_rubble("view " + (scratch / "r") + " --frames 2 --width 32");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const nlohmann::json data = data_of(read_file(scratch / "r/view.html"));
+  ASSERT_EQ(data.at("tracks").size(), 2u);
+  EXPECT_EQ(data.at("tracks")[0].at("name"), "front");
+  EXPECT_EQ(data.at("tracks")[0].at("stamps").size(), 5u);
+  EXPECT_EQ(data.at("tracks")[0].at("frames").size(), 2u);
+  EXPECT_EQ(data.at("tracks")[1].at("stamps").size(), 3u);
+  ASSERT_EQ(data.at("robots").size(), 1u);
+  const nlohmann::json& rover = data.at("robots")[0];
+  EXPECT_EQ(rover.at("name"), "rover");
+  EXPECT_EQ(rover.at("stamps").size(), 61u);
+  EXPECT_EQ(rover.at("stamps")[0], 1.0);
+  ASSERT_EQ(rover.at("links").size(), 5u);  // a body and four wheels
+  EXPECT_EQ(rover.at("links")[0].at("poses").get<std::string>().size(), (61u * 28 + 2) / 3 * 4);
 }
 
 // A triangle as `rubble voids` writes it.

@@ -54,6 +54,11 @@ class Mesh:
         merged = self.mesh.copy()
         merged.merge_vertices(merge_tex=True, merge_norm=True)
         balanced, paired = edges_of(merged.faces)
+        if paired and not balanced:  # triangles that face both ways are turned, with a note
+            trimesh.repair.fix_normals(merged)
+            balanced, paired = edges_of(merged.faces)
+            if balanced:
+                figures["turned"] = True
         # In between, programs differ: four faces meet in an edge, or cracks of rounding run between the faces.
         if paired or not balanced and not self.is_closed_but_for_cracks():
             figures["closed"] = balanced

@@ -3,14 +3,18 @@
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationGPS.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRange.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CRawlog.h>
+#include <mrpt/obs/gnss_messages_ascii_nmea.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -232,6 +236,67 @@ TEST(Rawlog, OdometryThatDoesNotTurnHasNoVelocities) {
   for (const auto& observation : read_rawlog(folder / "a.rawlog"))
     if (const auto o = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(observation)) found.push_back(o->hasVelocities);
   EXPECT_EQ(found, (std::vector<bool>{false, false, false, true, true}));
+}
+
+// One observation, whatever the reading.
+class FixedObservation : public ReadingFormat {
+ public:
+  explicit FixedObservation(RawlogObservation observation) : observation_(std::move(observation)) {}
+  std::vector<ReadingColumn> columns() const override { return {}; }
+  std::vector<Topic> topics() const override { return {}; }
+  std::string message(std::size_t, ros::Version, const ros::Header&, const Reading&) const override { return ""; }
+  RawlogObservation observe(const Reading&) const override { return observation_; }
+
+ private:
+  RawlogObservation observation_;
+};
+
+TEST(Rawlog, ReadingsOfSensorsAreMrptsObservations) {
+  InertialObservation inertial;
+  inertial.magnetic_field = {2e-5, 0, -4e-5}, inertial.orientation = {0.1, 0.2, 0.3, 0.9}, inertial.pressure = {100000};
+  SatelliteObservation place;
+  place.latitude_deg = 42.5, place.longitude_deg = -71.25, place.altitude = 17, place.hdop = 1.5;
+  place.satellites = 7, place.fix = true;
+  const std::vector<std::pair<std::string, RawlogObservation>> sensors{
+      {"range", RangeObservation{0.04, 4, 1.25, 0.5}},
+      {"far", RangeObservation{0.04, 4, std::numeric_limits<double>::infinity(), 0.5}},
+      {"inertial", inertial}, {"place", place}, {"bumper", std::monostate()}};
+  RawlogOptions options;
+  for (const auto& [name, observation] : sensors)
+    options.recording.sensors.push_back({name, "", "", "", {{}, {0.1, 0, 0.2}}, std::make_shared<FixedObservation>(observation)});
+  const ScratchFolder folder;
+  const auto recorder = make_rawlog_recorder(folder / "a.rawlog", options);
+  constexpr std::int64_t kStamp = 3'723'500'000'000;  // 1 h 2 min 3.5 s
+  for (int i = 0; i < int(sensors.size()); ++i) recorder->write_reading({i, kStamp, {}});
+  recorder->finish();
+  const auto read = read_rawlog(folder / "a.rawlog");
+  ASSERT_EQ(read.size(), 4u);  // MRPT has none for a bumper
+  const auto range = std::dynamic_pointer_cast<mrpt::obs::CObservationRange>(read[0]);
+  ASSERT_TRUE(range);
+  EXPECT_EQ(range->sensorLabel, "range");
+  EXPECT_EQ(range->sensedData.at(0).sensedDistance, 1.25f);
+  EXPECT_EQ(range->maxSensorDistance, 4);
+  EXPECT_EQ(range->sensorConeApperture, 0.5f);
+  mrpt::poses::CPose3D at;
+  range->getSensorPose(at);
+  EXPECT_NEAR(at.z(), 0.2, 1e-12);
+  EXPECT_EQ(std::dynamic_pointer_cast<mrpt::obs::CObservationRange>(read[1])->sensedData.at(0).sensedDistance, 0);
+  const auto imu = std::dynamic_pointer_cast<mrpt::obs::CObservationIMU>(read[2]);
+  ASSERT_TRUE(imu);
+  EXPECT_NEAR(imu->get(mrpt::obs::IMU_MAG_Z), -0.4, 1e-12);  // gauss
+  EXPECT_EQ(imu->get(mrpt::obs::IMU_ORI_QUAT_W), 0.9);
+  EXPECT_EQ(imu->get(mrpt::obs::IMU_PRESSURE), 100000);
+  EXPECT_FALSE(imu->has(mrpt::obs::IMU_X_ACC));
+  const auto gps = std::dynamic_pointer_cast<mrpt::obs::CObservationGPS>(read[3]);
+  ASSERT_TRUE(gps);
+  const auto& gga = gps->getMsgByClass<mrpt::obs::gnss::Message_NMEA_GGA>().fields;
+  EXPECT_EQ(gga.latitude_degrees, 42.5);
+  EXPECT_EQ(gga.longitude_degrees, -71.25);
+  EXPECT_EQ(gga.fix_quality, 1);
+  EXPECT_EQ(gga.satellitesUsed, 7u);
+  EXPECT_EQ(gga.UTCTime.hour, 1);
+  EXPECT_EQ(gga.UTCTime.minute, 2);
+  EXPECT_NEAR(gga.UTCTime.sec, 3.5, 1e-9);
 }
 
 // As MRPT's programs read it. Between two readings odometry goes on evenly.

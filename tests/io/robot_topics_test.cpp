@@ -194,6 +194,29 @@ TEST_P(RobotCdr, MessagesEqualFastCdr) {
             FastCdr().header(header_).vector({1, 2, 3}).vector({4, 5, 6}).bytes());
 }
 
+TEST_P(RobotCdr, MessagesOfSensorsEqualFastCdr) {
+  FastCdr range;
+  range.header(header_) << std::uint8_t{1} << 0.5f << 0.25f << 4.0f << 1.5f;
+  EXPECT_EQ(ros::range(kRos2, header_, true, 0.5, 0.25, 4, 1.5), range.bytes());
+  EXPECT_EQ(ros::boolean(kRos2, true), (FastCdr() << std::uint8_t{1}).bytes());
+  FastCdr pressure;
+  pressure.header(header_) << 101325.0 << 4.0;
+  EXPECT_EQ(ros::fluid_pressure(kRos2, header_, 101325, 4), pressure.bytes());
+  FastCdr field;
+  field.header(header_).vector({1e-5, 2e-5, -4e-5}) << std::array<double, 9>{9, 0, 0, 0, 9, 0, 0, 0, 9};
+  EXPECT_EQ(ros::magnetic_field(kRos2, header_, {1e-5, 2e-5, -4e-5}, 9), field.bytes());
+  FastCdr fix;
+  fix.header(header_) << std::int8_t{0} << std::uint16_t{1} << 42.5 << -71.25 << 17.0;
+  fix << std::array<double, 9>{1, 0, 0, 0, 2, 0, 0, 0, 3} << std::uint8_t{2};
+  EXPECT_EQ(ros::nav_sat_fix(kRos2, header_, true, 42.5, -71.25, 17, {1, 2, 3}), fix.bytes());
+  FastCdr attitude;
+  const std::array<double, 9> none{-1, 0, 0, 0, 0, 0, 0, 0, 0};
+  attitude.header(header_) << 0.1 << 0.2 << 0.3 << 0.9 << std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 4};
+  attitude.vector({}) << none;
+  attitude.vector({}) << none;
+  EXPECT_EQ(ros::attitude(kRos2, header_, {0.9, 0.1, 0.2, 0.3}, {1, 1, 4}), attitude.bytes());
+}
+
 INSTANTIATE_TEST_SUITE_P(Frames, RobotCdr,
                          ::testing::Values("", "a", "ab", "abc", "abcd", "abcde", "abcdef", "abcdefg"));
 

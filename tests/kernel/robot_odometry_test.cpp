@@ -36,7 +36,7 @@ Ride ride(const RobotModel& model, const Twist& twist, double seconds, bool wall
     const double now = testing::yaw_of(world, robot);
     result.turned += std::remainder(now - yaw, 2 * portable::kPi);
     yaw = now;
-    return crawler ? drive_crawler(model, twist, {}) : drive_wheels(model, twist);
+    return crawler ? drive_tracks(model, twist, {}) : drive_wheels(model, twist);
   });
   result.mean_slip = odometry.mean_slip();
   result.way = testing::position_of(world, robot) - start;

@@ -66,7 +66,7 @@ RobotController undulate(const RobotModel& model) {
 }
 
 RobotController push(const RobotModel& model, double speed) {
-  return [&model, speed](const RobotSense&) { return drive_crawler(model, {speed, 0}, {}); };
+  return [&model, speed](const RobotSense&) { return drive_tracks(model, {speed, 0}, {}); };
 }
 
 TEST(RobotRun, APileThatIsLaidStaysAsItWas) {

@@ -196,6 +196,16 @@ IMUS = {
     "two": {"@imus": 2},
 }
 
+SENSORS = {
+    "none": {},
+    "exact": {"@sensors": {"attitudes": {"ahrs": {"noise": False, "rpy_deg": [5, -10, 80]}},
+                           "barometers": {"baro": {"noise": False, "altitude": 300}},
+                           "magnetometers": {"mag": {"noise": False, "declination_deg": 7, "rpy_deg": [0, 0, 45]}},
+                           "gnss": {"gps": {"noise": False, "altitude": 30}},
+                           "range_finders": {"sonar": {"noise": False, "radiation": "ultrasound", "range_step": 0}}}},
+    "noisy": {"@sensors": {"range_finders": {"tof": {}}, "attitudes": {"ahrs": {}}, "gnss": {"gps": {}}, "bumpers": {"bow": {}}}},
+}
+
 AIRS = {
     "clear": {},
     "fog": {"air": {"fog_density": 0.03}},
@@ -310,7 +320,7 @@ FACTORS = {
     "pile": PILES, "building": BUILDINGS, "cause": CAUSES, "terrain": TERRAINS, "fines": FINES,
     "surroundings": SURROUNDINGS, "victims": VICTIMS, "robots": ROBOTS, "control": CONTROLS, "debris": DEBRIS, "path": PATHS,
     "cameras": CAMERAS, "lens": LENSES, "shutter": SHUTTERS, "depth": DEPTHS, "events": EVENTS, "exposure": EXPOSURES,
-    "quality": QUALITIES, "channels": CHANNELS, "lidar": LIDARS, "imu": IMUS, "air": AIRS, "light": LIGHTS, "lamp": LAMPS,
+    "quality": QUALITIES, "channels": CHANNELS, "lidar": LIDARS, "imu": IMUS, "sensors": SENSORS, "air": AIRS, "light": LIGHTS, "lamp": LAMPS,
     "record_settling": SETTLING_RECORDS, "settle": SETTLES, "start": STARTS, "ros1": ROS1, "ros2": ROS2, "rawlog": RAWLOGS,
     "folders": FOLDERS, "scans": SCAN_FILES, "meshes": MESHES, "track": TRACKS, "voids": VOIDS, "afterwards": AFTERWARDS,
 }
@@ -334,6 +344,7 @@ def keys_of_levels():
     made = {"@pile": "pile", "@packs": "packs", "@building": "pile", "@cause": "pile", "@terrain": "pile", "@robots": "robots",
             "@control": "robots", "@waypoints": "trajectory", "@path": "trajectory", "@ride": "trajectory", "@camera": "camera",
             "@depth": "depth_sensor", "@events": "event_camera", "@lidars": "lidars", "@imu": "imu", "@imus": "imus"}
+    kinds = {kind for level in FACTORS["sensors"].values() for kind in level.get("@sensors", {})}
     keys = {made.get(key, key).split(".")[0] for levels in FACTORS.values() for level in levels.values() for key in level}
-    keys.add("cameras")  # of several cameras
+    keys |= {"cameras"} | kinds  # of several cameras
     return {key for key in keys if not key.startswith("@")}

@@ -253,6 +253,13 @@ def add_sensors(mission, special, robots):
         if on_links:
             for item in mission["imus"].values():
                 item["ride"] = ride
+    for kind, by_name in special.get("@sensors", {}).items():
+        if kind == "bumpers" and not robots:
+            continue  # what flies has none
+        mission[kind] = {name: dict(settings) for name, settings in by_name.items()}
+        if on_links or kind == "bumpers":
+            for settings in mission[kind].values():
+                settings.update(ride=ride, position=[0, 0, 0.6])
     if "@lidars" in special:
         senses = special.get("@control") == "senses"
         for lidar in special["@lidars"].values():

@@ -22,6 +22,7 @@ import covering_array
 import judges_formats
 import judges_geometry
 import judges_motion
+import judges_sensors
 import judges_streams
 import known_failures
 import report
@@ -30,20 +31,20 @@ from dataset import Dataset, Finding
 from factors import FACTORS
 from missions import make_mission
 
-JUDGES = judges_streams.JUDGES + judges_formats.JUDGES + judges_motion.JUDGES + judges_geometry.JUDGES
+JUDGES = judges_streams.JUDGES + judges_formats.JUDGES + judges_motion.JUDGES + judges_sensors.JUDGES + judges_geometry.JUDGES
 
 # What the dozen of `make test` must have among them; the array completes each row and goes on from these.
 DOZEN = [
     {"pile": "lean_to", "robots": "crawler", "path": "ride", "imu": "exact", "lidar": "utm30lx", "control": "senses",
-     "rawlog": "actions", "ros2": "mcap", "afterwards": "info", "surroundings": "none", "quality": "fast"},
+     "rawlog": "actions", "ros2": "mcap", "afterwards": "info", "surroundings": "none", "quality": "fast", "sensors": "noisy"},
     {"pile": "spawned", "building": "bare", "cause": "removed", "fines": "few", "folders": "all", "afterwards": "pack",
      "surroundings": "none", "quality": "fast", "record_settling": "off"},
     {"pile": "placed", "cameras": "rig", "imu": "noisy", "lidar": "two", "scans": "both", "afterwards": "python",
      "surroundings": "none", "quality": "fast", "ros1": "bag", "robots": "none"},
     {"pile": "articulated", "record_settling": "all", "track": "on", "meshes": "all", "afterwards": "resume",
-     "surroundings": "none", "quality": "fast"},
+     "surroundings": "none", "quality": "fast", "sensors": "exact"},
     {"pile": "heap", "robots": "rover", "path": "links", "imu": "lever", "ros1": "metres", "ros2": "mcap", "afterwards": "nothing",
-     "surroundings": "none", "quality": "fast"},
+     "surroundings": "none", "quality": "fast", "sensors": "exact"},
     {"pile": "residential", "lens": "fisheye", "depth": "time_of_flight", "air": "smoke", "lamp": "ring", "afterwards": "view",
      "surroundings": "none", "quality": "draft", "robots": "none"},
     {"pile": "joined", "terrain": "function", "victims": "one", "path": "void", "afterwards": "nothing", "surroundings": "none",

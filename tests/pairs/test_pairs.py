@@ -16,6 +16,7 @@ import factors
 import judges_formats
 import judges_geometry
 import judges_motion
+import judges_sensors
 import judges_streams
 import known_failures
 import recordings
@@ -27,7 +28,7 @@ from missions import make_mission
 PROGRAM = os.environ["RUBBLE_PROGRAM"]
 # What most judges have something to say about.
 ROW = {"pile": "spawned", "imu": "lever", "lidar": "vlp16", "scans": "both", "ros2": "mcap", "folders": "all", "robots": "rover",
-       "control": "drive", "lens": "plumb_bob", "meshes": "all", "ros1": "metres", "rawlog": "observations"}
+       "control": "drive", "lens": "plumb_bob", "meshes": "all", "ros1": "metres", "rawlog": "observations", "sensors": "exact"}
 
 
 class Array(unittest.TestCase):
@@ -135,6 +136,23 @@ class Judges(unittest.TestCase):
                 file.write(body[:end] + points.tobytes())
         self.assert_sees(judges_geometry.scans_meet_geometry, self.load(folder), "are not those of the geometry")
         self.assert_sees(judges_formats.scan_files_are_equal, self.load(folder), "differs between")
+
+    def test_another_reading(self):
+        for name, change, judge, words in (("ahrs", lambda v: [-v[0]] + v[1:], judges_sensors.attitudes_meet_poses, "beside the pose"),
+                                           ("baro", lambda v: [v[0] + 1], judges_sensors.pressures_meet_heights, "at this height"),
+                                           ("mag", lambda v: [v[1], v[0], v[2]], judges_sensors.fields_meet_poses, "beside the Earth's"),
+                                           ("gps", lambda v: [v[0] + 1e-6] + v[1:], judges_sensors.fixes_meet_poses, "beside the place"),
+                                           ("sonar", lambda v: [v[0]], judges_sensors.readings_are_recorded, "other stamps")):
+            folder = self.copy()
+            path = os.path.join(folder, "sensors", name + ".csv")
+            with open(path, encoding="ascii") as file:
+                head, *rows = file.read().splitlines()
+            with open(path, "w", encoding="ascii") as file:
+                file.write(head + "\n")
+                for row in rows[name == "sonar":]:
+                    stamp, *values = row.split(",")
+                    file.write(",".join([stamp] + [repr(value) for value in change([float(value) for value in values])]) + "\n")
+            self.assert_sees(judge, self.load(folder), words)
 
     def test_a_shifted_stamp(self):
         data = self.load()

@@ -36,6 +36,7 @@ void expect_tests(const std::string& file, const std::string& more = "") {
 
 TEST(Python, PilesAnswer) { expect_tests("test_pile.py"); }
 TEST(Python, SensorsAndRobotsAnswer) { expect_tests("test_sensors.py"); }
+TEST(Python, SessionsGiveWhatARunRecords) { expect_tests("test_session.py"); }
 TEST(Python, DatasetsAreRead) { expect_tests("test_dataset.py"); }
 TEST(Python, ArraysAreWhole) { expect_tests("test_arrays.py"); }
 

@@ -1,0 +1,57 @@
+#include "app/robots/buried_sensors.h"
+
+#include <algorithm>
+
+#include "kernel/queries/query_triangle.h"
+#include "kernel/robot/looks.h"
+
+namespace rubble {
+namespace {
+
+bool is_inside(const RobotLink& link, const Vec3& point) {
+  const TriangleMesh mesh = make_link_mesh(link, "");
+  double winding = 0;
+  for (const auto& v : mesh.triangles)
+    winding += calc_winding({Vec3(mesh.positions[v[0]]), Vec3(mesh.positions[v[1]]), Vec3(mesh.positions[v[2]])}, point);
+  return winding > 0.5;
+}
+
+class Finder {
+ public:
+  Finder(const Scenario& scenario, const std::vector<MissionRobot>& robots)
+      : rig_(scenario.trajectory.ride), robots_(robots), names_(robot_names(scenario.robots)) {}
+
+  // What is on the rig hangs on the link that carries that.
+  void look(const std::string& key, const Carrier& carrier, const Pose& carrier_from_sensor) {
+    if (!carrier.on() && !rig_.on()) return;
+    const Carrier& on = carrier.on() ? carrier : rig_;
+    const Pose link_from_carrier = carrier.on() ? Pose() : rig_.link_from_rig();
+    const auto robot = std::size_t(std::find(names_.begin(), names_.end(), on.robot) - names_.begin());
+    const RiddenLink ridden = find_link(robots_[robot], on.link, carrier.on() ? key + ".ride" : "trajectory.ride");
+    const RobotLink& link = robots_[robot].model.links[ridden.link];
+    if (!is_inside(link, (ridden.link_from_rider * link_from_carrier * carrier_from_sensor).translation)) return;
+    warnings_.push_back(key + ": the sensor is inside of `" + link.name +
+                        "`, the link that carries it, and sees nothing else; `position` moves it out");
+  }
+  std::vector<std::string> take() { return std::move(warnings_); }
+
+ private:
+  const Ride& rig_;
+  const std::vector<MissionRobot>& robots_;
+  std::vector<std::string> names_, warnings_;
+};
+
+}  // namespace
+
+std::vector<std::string> find_buried_sensors(const Scenario& scenario, const std::vector<MissionRobot>& robots) {
+  Finder finder(scenario, robots);
+  for (const MountedCamera& camera : all_cameras(scenario))
+    finder.look(scenario.cameras.empty() ? "camera" : "cameras." + camera.name, camera.ride,
+                camera.is_rig() ? Pose() : camera.rig_from_camera());
+  for (const LidarScenario& lidar : scenario.lidars) finder.look("lidars." + lidar.name, lidar.ride, lidar.rig_from_lidar());
+  for (const SensorItem& sensor : scenario.sensors)
+    if (sensor.figures->casts_rays()) finder.look(sensor.key(), sensor.ride, sensor.carrier_from_sensor());
+  return finder.take();
+}
+
+}  // namespace rubble

@@ -1,0 +1,33 @@
+// Planar depth of a camera by exact rays: what a function that drives a robot is told, and what is recorded then.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kernel/base/parallel.h"
+#include "render/lidar/depth_rays.h"
+#include "scripting/scenario/scenario.h"
+
+namespace rubble {
+
+// Key of a camera in the mission.
+std::string camera_key(const Scenario& scenario, const MountedCamera& camera);
+
+class ExactDepth {
+ public:
+  // key: of the camera in the mission. Throws InputError for a lens that is no pinhole.
+  ExactDepth(const MountedCamera& camera, const std::string& key, std::shared_ptr<LidarWorld> world, int threads);
+
+  const Intrinsics& intrinsics() const { return rays_.intrinsics(); }
+  // As Frame::depth, of everything where it is at that stamp.
+  std::vector<float> measure(std::int64_t stamp_ns, const Pose& world_from_camera);
+
+ private:
+  DepthRays rays_;
+  std::shared_ptr<LidarWorld> world_;
+  ThreadPool pool_;
+};
+
+}  // namespace rubble

@@ -1,0 +1,91 @@
+#include "app/session/pose_history.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/robots/felt_links.h"
+#include "app/scene/moving_scene.h"
+#include "kernel/base/error.h"
+
+namespace rubble {
+
+PoseHistory::PoseHistory(const Scenario& scenario, const std::vector<MissionRobot>& robots, double step)
+    : names_(robot_names(scenario.robots)), robots_(robots), start_ns_(scenario.start_ns), step_(step), felt_(!scenario.sensors.empty()) {
+  const auto add_link = [&](const Carrier& carrier, const std::string& key) {
+    const auto same = [&](const LinkWay& link) { return link.carrier == carrier; };
+    if (!carrier.on() || std::any_of(ways_.links.begin(), ways_.links.end(), same)) return;
+    add(carrier, {}, key);
+    ways_.links.push_back({carrier, mounts_.back().way});
+  };
+  const Ride& rig = scenario.trajectory.ride;
+  if (rig.on()) {
+    add(rig, rig.link_from_rig(), "trajectory.ride");
+    rig_ = 0;
+    ways_.ride = mounts_.back().way;
+  }
+  for (const MountedCamera& camera : scenario.cameras) add_link(camera.ride, "cameras." + camera.name + ".ride");
+  for (const LidarScenario& lidar : scenario.lidars) add_link(lidar.ride, "lidars." + lidar.name + ".ride");
+  add_link(scenario.imu.ride, "imu.ride");
+  for (const ImuScenario& imu : scenario.imus) add_link(imu.ride, "imus." + imu.name + ".ride");
+  for (const SensorItem& sensor : scenario.sensors) add_link(sensor.ride, sensor.key() + ".ride");
+  ways_.felt = find_felt_links(scenario, robots);
+}
+
+void PoseHistory::add(const Carrier& carrier, const Pose& link_from_carrier, const std::string& key) {
+  Mount mount;
+  mount.robot = std::size_t(std::find(names_.begin(), names_.end(), carrier.robot) - names_.begin());
+  static_cast<RiddenLink&>(mount) = find_link(robots_[mount.robot], carrier.link, key);
+  mount.link_from_rider = mount.link_from_rider * link_from_carrier;
+  mount.way = std::make_shared<SimulatedPath>(step_);
+  mounts_.push_back(std::move(mount));
+}
+
+const std::shared_ptr<const MotionPath>& PoseHistory::way_of(const Carrier& carrier, const std::string& key) const {
+  const std::shared_ptr<const MotionPath>& way = ways_.path_of(carrier, ways_.ride);
+  if (way) return way;
+  throw InputError({"", 0, key, "no robot carries it", "`ride`, or `trajectory.ride` for the rig that it is on", "", ""});
+}
+
+Pose PoseHistory::place(const Mount& mount) const {
+  const World& world = run_->world();
+  return world.piece(world.robot_piece(int(mount.robot)) + int(mount.link)).world_from_body * mount.link_from_rider;
+}
+
+Pose PoseHistory::world_from_rig() const { return place(mounts_.at(std::size_t(rig_))); }
+
+std::optional<RigMount> PoseHistory::mount(const std::vector<RobotRecord>& records) const {
+  if (rig_ < 0) return std::nullopt;
+  const Mount& rig = mounts_[std::size_t(rig_)];
+  return RigMount{records[rig.robot].frame_of(int(rig.link)), rig.link_from_rider};
+}
+
+void PoseHistory::restart(const RobotRun& run) {
+  run_ = &run;
+  for (Mount& mount : mounts_) mount.way->clear();
+  for (Mount& mount : mounts_) mount.way->add(place(mount));
+  ways_.contacts = ContactHistory(step_);
+}
+
+void PoseHistory::note_step() {
+  for (Mount& mount : mounts_) mount.way->add(place(mount));
+  if (felt_) ways_.contacts.note(run_->world(), int(robots_.size()));
+}
+
+std::int64_t PoseHistory::ways_known_until() const {
+  return start_ns_ + std::int64_t(double(run_->steps() - 2) * step_ * 1e9);
+}
+
+// Less what rounding may add.
+std::int64_t PoseHistory::track_known_until() const { return start_ns_ + std::int64_t(run_->track().end() * 1e9) - 1; }
+
+std::optional<Pose> PoseHistory::pose_of(int id, std::int64_t stamp_ns) const {
+  return pose_in_track(run_->track(), id, stamp_ns - start_ns_);
+}
+
+// The curve between two steps needs the steps beside them.
+void PoseHistory::forget_before(std::int64_t stamp_ns) {
+  const double seconds = double(stamp_ns - start_ns_) * 1e-9;
+  for (Mount& mount : mounts_) mount.way->forget_before(std::int64_t(std::floor(seconds / step_)) - 2);
+}
+
+}  // namespace rubble

@@ -1,0 +1,186 @@
+#include "app/session/session.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "app/control/robot_control.h"
+#include "app/control/robot_senses.h"
+#include "app/control/script_control.h"
+#include "app/sensors/reading_sensor.h"
+#include "app/session/live_colours.h"
+#include "app/session/live_sensors.h"
+
+namespace rubble {
+namespace {
+
+// Numbers of the sensors on robots.
+template <typename Item>
+std::vector<std::size_t> find_carried(const std::vector<Item>& sensors, const RobotReadings& ways) {
+  std::vector<std::size_t> carried;
+  for (std::size_t i = 0; i < sensors.size(); ++i)
+    if (ways.path_of(sensors[i].ride, ways.ride)) carried.push_back(i);
+  return carried;
+}
+
+}  // namespace
+
+Session::Session(const ResolvedMission& mission, const PileState& pile, std::vector<MissionRobot> robots,
+                 RunContext& context, const SessionOptions& options)
+    : mission_(mission),
+      scenario_(mission.scenario),
+      pile_(pile),
+      context_(context),
+      options_(options),
+      run_options_(robot_run_options(scenario_, context.threads())),
+      laid_(make_laid_pile(mission, pile)),
+      names_(robot_names(scenario_.robots)),
+      robots_(std::move(robots)),
+      records_(describe_robots(scenario_, robots_)),
+      history_(scenario_, robots_, run_options_.step),
+      own_(robots_.size()) {
+  for (const MissionRobot& robot : robots_) seen_.models.push_back(robot.model);
+}
+
+Session::~Session() = default;
+
+std::int64_t Session::steps_of_mission() const {
+  return std::int64_t(run_options_.duration / run_options_.step + 0.5);
+}
+
+void Session::set_controller(std::size_t robot, RobotController controller) { own_[robot] = std::move(controller); }
+
+// Legs, or a function of the script, unless somebody else drives it.
+RobotController Session::make_controller(std::size_t robot) {
+  const RobotItem& item = scenario_.robots[robot];
+  const RobotModel& model = robots_[robot].model;
+  if (own_[robot]) return own_[robot];
+  if (item.control == 0) return make_leg_controller(item, model);
+  if (!script_)
+    script_ = std::make_unique<ScriptControl>(mission_, [this](std::size_t told, Value& table) {
+      measure();
+      senses_->tell(told, table);
+    });
+  return script_->controller_of(robot, model);
+}
+
+void Session::start() {
+  script_ = nullptr;
+  senses_ = std::make_unique<RobotSenses>(scenario_);
+  commands_.assign(robots_.size(), std::nullopt);
+  sensors_.clear(), measured_.clear(), logs_.clear(), seen_.first_piece.clear();
+  run_ = std::make_unique<RobotRun>(laid_, pile_, run_options_);
+  for (std::size_t i = 0; i < robots_.size(); ++i)
+    logs_.emplace_back(robots_[i].model, scenario_.start_ns, odometry_noise(scenario_, i));
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    const RobotController own = make_controller(i);
+    const RobotController control = with_mimics(
+        [this, i, own](const RobotSense& sense) { return commands_[i] ? *commands_[i] : own(sense); }, robots_[i].model.mimics);
+    run_->add(robots_[i].model, calc_base_pose(scenario_.robots[i], robots_[i]),
+              [this, control, &log = logs_[i]](const RobotSense& sense) {
+                if (options_.observed || options_.recorded) log.note(sense);
+                return control(sense);
+              });
+    seen_.first_piece.push_back(run_->world().robot_piece(int(i)));
+  }
+  run_->begin();
+  history_.restart(*run_);
+  make_sensors();
+}
+
+// Units of inertia, LiDARs, other kinds, depth and colours: the order of samples whose stamps are equal.
+void Session::make_sensors() {
+  auto [lidars, readings, depths, colours, imus] = script_ ? senses_->sensed() : RobotSenses::Sensed();
+  const auto add = [](std::vector<std::size_t>& list, const std::vector<std::size_t>& more) {
+    for (const std::size_t i : more)
+      if (std::find(list.begin(), list.end(), i) == list.end()) list.push_back(i);
+    std::sort(list.begin(), list.end());
+  };
+  if (options_.observed) {
+    add(imus, find_carried(all_imus(scenario_), history_.ways()));
+    add(lidars, find_carried(scenario_.lidars, history_.ways()));
+    add(readings, find_carried(scenario_.sensors, history_.ways()));
+  }
+  if (options_.depth) add(depths, find_carried(all_cameras(scenario_), history_.ways()));
+  const bool rays = !lidars.empty() || !depths.empty() || (!readings.empty() && needs_rays(scenario_.sensors));
+  if (imus.empty() && readings.empty() && !rays && colours.empty()) return;
+  Scene scene;
+  if ((rays && !world_of_rays_) || (!colours.empty() && !colours_))
+    scene = build_live_scene(scenario_, mission_.assets, pile_, seen_,
+                             [this](int id, std::int64_t stamp_ns) { return history_.pose_of(id, stamp_ns); });
+  if (rays && !world_of_rays_) world_of_rays_ = std::make_shared<LidarWorld>(scene);
+  const LiveSensorParts parts{scenario_, history_, world_of_rays_, Medium(scenario_.air, scenario_.seed), context_.threads()};
+  for (const std::size_t i : imus) sensors_.push_back(make_live_imu(parts, i));
+  for (const std::size_t i : lidars) sensors_.push_back(make_live_lidar(parts, i));
+  for (const std::size_t i : readings) sensors_.push_back(make_live_reading(parts, i));
+  for (const std::size_t i : depths) sensors_.push_back(make_live_depth(parts, i));
+  if (!colours.empty() && !colours_)
+    colours_ = std::make_unique<LiveColours>(
+        scene, LiveColoursOptions{context_.options.gl_device, context_.threads(), [this](double done) {
+                                    context_.progress.update(0, "light " + std::to_string(int(100 * done)) + " %");
+                                  }});
+  for (const std::size_t i : colours) sensors_.push_back(colours_->make_eye(parts, i));
+}
+
+void Session::step() {
+  run_->step();
+  history_.note_step();
+  if (sensors_.empty() && !options_.recorded) history_.forget_before(history_.ways_known_until());
+}
+
+void Session::measure() {
+  const std::int64_t way = history_.ways_known_until(), track = history_.track_known_until();
+  std::int64_t needed = way;
+  for (const auto& sensor : sensors_) {
+    LiveSensor::Needs needs = sensor->needs();
+    for (; needs.way_until <= way && needs.scene_until <= track; needs = sensor->needs()) {
+      Sample sample = sensor->take();
+      senses_->hear(sample);
+      if (options_.observed || options_.depth) measured_.push_back(std::move(sample));
+    }
+    needed = std::min(needed, needs.from);
+  }
+  if (!options_.recorded) history_.forget_before(needed);
+}
+
+std::vector<Sample> Session::observe() {
+  measure();
+  std::vector<Sample> samples;
+  for (RobotLog& log : logs_)
+    for (RobotSample& sample : log.take_samples()) samples.emplace_back(std::move(sample));
+  std::move(measured_.begin(), measured_.end(), std::back_inserter(samples));
+  measured_.clear();
+  std::stable_sort(samples.begin(), samples.end(),
+                   [](const Sample& a, const Sample& b) { return stamp_of(a) < stamp_of(b); });
+  return samples;
+}
+
+DrivenRobots Session::finish() {
+  DrivenRobots driven;
+  driven.readings = history_.ways();
+  const World& world = run_->world();
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    const RobotSense last{world.time(), world.robot_state(int(i)), world.robot_contacts(int(i))};
+    if (!last.state.lost) logs_[i].note(last);
+    driven.readings.samples.push_back(logs_[i].samples());
+  }
+  driven.records = records_;
+  driven.mount = mount();
+  RobotRunResult result = run_->finish();
+  driven.moved.track = std::move(result.track);
+  driven.moved.models = seen_.models;
+  driven.moved.first_piece = std::move(result.first_piece);
+  driven.summaries = std::move(result.robots);
+  driven.pieces_moved = result.pieces_moved;
+  return driven;
+}
+
+Scene Session::build_scene(const Scenario& drawn) const {
+  return build_live_scene(drawn, mission_.assets, pile_, seen_, [this](int id, std::int64_t) -> std::optional<Pose> {
+    const PieceState piece = run_->world().piece(id);
+    if (piece.status == PieceStatus::lost) return std::nullopt;
+    return piece.world_from_body;
+  });
+}
+
+}  // namespace rubble

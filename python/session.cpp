@@ -1,0 +1,179 @@
+// The robots of a mission stepped from Python, and what their sensors measure meanwhile.
+#include "app/session/session.h"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "app/control/robot_control.h"
+#include "python/parts.h"
+#include "python/robot_commands.h"
+
+namespace rubble::python {
+namespace {
+
+py::array_t<double> to_array(std::vector<double> values) {
+  const auto count = py::ssize_t(values.size());
+  return take_vector(std::move(values), {count});
+}
+
+class MissionSession {
+  template <typename Work>
+  auto with_lines(const Work& work) const {
+    return with_lines_of_script(settled_->mission, work);
+  }
+
+ public:
+  MissionSession(SharedPile settled, bool depth, int threads)
+      : settled_(std::move(settled)), context_(quiet(threads)), session_(with_lines([&] { return make(depth); })) {
+    with_lines([&] {
+      const py::gil_scoped_release free;
+      session_->start();
+      return true;
+    });
+  }
+
+  void drive(const std::string& robot, double linear, double angular, const std::vector<double>& flippers) {
+    command(robot, [&](const RobotModel& model) { return make_twist_command(model, linear, angular, flippers); });
+  }
+  void grow(const std::string& robot, double speed, double left, double up) {
+    command(robot, [&](const RobotModel& model) { return make_growth_command(model, speed, left, up); });
+  }
+  void set_joints(const std::string& robot, const std::vector<double>& targets) {
+    command(robot, [&](const RobotModel& model) { return make_joints_command(model, targets); });
+  }
+  void follow_mission(const std::string& robot) { session_->command(find(robot), std::nullopt); }
+
+  void step(double seconds) {
+    const int steps = count_steps(seconds, session_->step_time());
+    with_lines([&] {
+      const py::gil_scoped_release free;
+      for (int i = 0; i < steps; ++i) session_->step();
+      return true;
+    });
+  }
+
+  py::list observe() {
+    std::vector<Sample> samples;
+    {
+      const py::gil_scoped_release free;
+      samples = session_->observe();
+    }
+    py::list out;
+    for (Sample& sample : samples) {
+      py::dict one = std::visit([this](auto& of) { return describe(of); }, sample);
+      one["stamp"] = stamp_of(sample);
+      out.append(one);
+    }
+    return out;
+  }
+
+  py::dict state(const std::string& robot) const {
+    const std::size_t i = find(robot);
+    return describe_state(session_->robots()[i].model, session_->world().robot_state(int(i)), time());
+  }
+
+  double time() const { return session_->world().time(); }
+  const std::vector<std::string>& robots() const { return session_->names(); }
+  std::vector<std::string> link_names(const std::string& robot) const {
+    return link_names_of(session_->robots()[find(robot)].model);
+  }
+
+ private:
+  std::unique_ptr<Session> make(bool depth) {
+    if (scenario().robots.empty())
+      throw InputError({"", 0, "robots", "the mission has no robots", "a mission with `robots`", "none", ""});
+    SessionOptions options;
+    options.observed = true, options.depth = depth;
+    return std::make_unique<Session>(settled_->mission, settled_->state, make_robots(settled_->mission, context_), context_,
+                                     options);
+  }
+  const Scenario& scenario() const { return settled_->mission.scenario; }
+
+  std::size_t find(const std::string& robot) const {
+    const std::vector<std::string>& names = session_->names();
+    const auto at = std::find(names.begin(), names.end(), robot);
+    if (at != names.end()) return std::size_t(at - names.begin());
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "one of " : ", ") + name;
+    throw InputError({"", 0, "robot", "no robot has this name", all, "\"" + robot + "\"", ""});
+  }
+  template <typename Make>
+  void command(const std::string& robot, const Make& make_command) {
+    const std::size_t i = find(robot);
+    session_->command(i, make_command(session_->robots()[i].model));
+  }
+
+  static py::dict named(const char* kind, const std::string& sensor) {
+    py::dict out;
+    out["kind"] = kind, out["sensor"] = sensor;
+    return out;
+  }
+  py::dict describe(const RobotSample& s) const {
+    py::dict out = named("robot", session_->names()[std::size_t(s.sensor)]);
+    std::vector<double> wrenches;
+    for (const RobotSample::Wrench& w : s.contacts)
+      for (const Vec3* v : {&w.force, &w.moment}) wrenches.insert(wrenches.end(), {v->x, v->y, v->z});
+    out["positions"] = to_array(s.positions), out["speeds"] = to_array(s.speeds), out["efforts"] = to_array(s.efforts);
+    out["contacts"] = take_vector(std::move(wrenches), {py::ssize_t(s.contacts.size()), 6});
+    out["pose"] = from_pose(s.world_from_base);
+    out["linear_velocity"] = from_vector(s.linear_velocity), out["angular_velocity"] = from_vector(s.angular_velocity);
+    if (s.odometry) out["odometry"] = from_pose(s.odometry->odom_from_base);
+    return out;
+  }
+  py::dict describe(const ImuSample& s) const {
+    py::dict out = named("imu", all_imus(scenario())[std::size_t(s.sensor)].name);
+    out["angular_velocity"] = from_vector(s.angular_velocity);
+    out["linear_acceleration"] = from_vector(s.linear_acceleration);
+    return out;
+  }
+  py::dict describe(LidarScan& s) const {
+    py::dict out = named("lidar", scenario().lidars[std::size_t(s.sensor)].name);
+    const auto count = py::ssize_t(s.points.size());
+    out["points"] = take_vector(std::move(s.points), {count});
+    out["pose"] = from_pose(s.world_from_lidar.front());
+    return out;
+  }
+  py::dict describe(const Reading& s) const {
+    const SensorItem& sensor = scenario().sensors[std::size_t(s.sensor)];
+    py::dict out = named("reading", sensor.name);
+    const std::vector<ReadingColumn> columns = sensor.figures->columns();
+    for (std::size_t i = 0; i < columns.size(); ++i) out[columns[i].name.c_str()] = s.values[i];
+    return out;
+  }
+  py::dict describe(Frame& s) const {
+    py::dict out = named("camera", all_cameras(scenario())[std::size_t(s.sensor)].name);
+    const Intrinsics& k = s.intrinsics;
+    out["K"] = camera_matrix(k), out["pose"] = from_pose(s.world_from_camera);
+    if (!s.depth.empty()) out["depth"] = take_vector(std::move(s.depth), {k.height, k.width});
+    if (!s.rgb.empty()) out["rgb"] = take_vector(std::move(s.rgb), {k.height, k.width, 3});
+    return out;
+  }
+
+  SharedPile settled_;
+  RunContext context_;
+  std::unique_ptr<Session> session_;
+};
+
+}  // namespace
+
+void add_sessions(py::module_& module) {
+  py::class_<MissionSession>(module, "_Session")
+      .def(py::init([](const SharedPile& settled, bool depth, int threads) {
+             return std::make_unique<MissionSession>(settled, depth, threads);
+           }))
+      .def("drive", &MissionSession::drive)
+      .def("grow", &MissionSession::grow)
+      .def("set_joints", &MissionSession::set_joints)
+      .def("follow_mission", &MissionSession::follow_mission)
+      .def("step", &MissionSession::step)
+      .def("observe", &MissionSession::observe)
+      .def("state", &MissionSession::state)
+      .def("link_names", &MissionSession::link_names)
+      .def_property_readonly("robots", &MissionSession::robots)
+      .def_property_readonly("time", &MissionSession::time);
+}
+
+}  // namespace rubble::python

@@ -20,6 +20,12 @@ enum class DriveAction {
   reset,      // back to the entry
   next_seed,  // another pile
   pause,
+  one_step,   // while it is paused
+  slow,       // a quarter of the speed of time, a sixteenth, whole again
+  hulls,      // shown or not
+  contacts,   // likewise, with their forces
+  frames,     // likewise, of the robots' links
+  scans,      // likewise, what LiDARs measured last
   help,
   picture,    // save what the window shows
   quit,

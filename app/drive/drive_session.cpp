@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <thread>
+#include <utility>
 
 #include "app/pipeline/live.h"
 #include "app/support/print.h"
@@ -74,6 +75,8 @@ void DriveSession::enter(std::optional<std::uint64_t> seed) {
                                            world_->queries(), world_->limits);
   map_frame_ = frame_map(world_->pile, world_->entry.position, request_.height);
   map_ = draw_height_map(world_->queries(), map_frame_, world_->threads);
+  overlay_ = std::make_unique<Overlay>(world_->assets.types);
+  scan_ = {};
   if (link_) link_->enter(*world_);
   picture_.track.clear();
   window_.set_title("rubble drive: " + request_.of.mission + ", seed " +
@@ -90,13 +93,13 @@ void DriveSession::run() {
     if (link_) link_->add_to(input, 1 / world_->scenario.trajectory.rate_hz);
     for (const DriveAction action : input.actions) act(action);
     if (quit_) break;
-    if (!paused_) {
+    if (!paused_ || std::exchange(one_step_, false)) {
       follow(input.trajectories);
       step(input);
     }
     show();
     // No faster than simulation time; slower where the machine cannot keep up.
-    due = std::max(due + step_time, Clock::now() - step_time);
+    due = std::max(due + step_time * slowness_, Clock::now() - step_time);
     std::this_thread::sleep_until(due);
     const Clock::time_point now = Clock::now();
     const double took = std::chrono::duration<double>(now - counted).count();
@@ -161,7 +164,10 @@ void DriveSession::step(const DriveInput& input) {
 FrameListener DriveSession::listener() {
   if (!link_) return {};
   return [this](const Frame& frame) {
-    link_->publish(frame, world_->robots ? world_->robots->take_sensed() : std::vector<Sample>());
+    const std::vector<Sample> sensed = world_->robots ? world_->robots->take_sensed() : std::vector<Sample>();
+    for (const Sample& sample : sensed)
+      if (const auto* scan = std::get_if<LidarScan>(&sample)) scan_ = *scan;
+    link_->publish(frame, sensed);
   };
 }
 
@@ -218,6 +224,24 @@ void DriveSession::act(DriveAction action) {
     case DriveAction::pause:
       paused_ = !paused_;
       return;
+    case DriveAction::one_step:
+      one_step_ = paused_ = true;
+      return;
+    case DriveAction::slow:
+      slowness_ = slowness_ == 16 ? 1 : 4 * slowness_;
+      return;
+    case DriveAction::hulls:
+      choice_.hulls = !choice_.hulls;
+      return;
+    case DriveAction::contacts:
+    case DriveAction::frames:
+      if (!world_->robots) return say("only robots have contacts and links in a drive");
+      (action == DriveAction::contacts ? choice_.contacts : choice_.frames) ^= true;
+      return;
+    case DriveAction::scans:
+      if (!world_->robots || !link_) return say("echoes are those of scans that are published: a robot with a LiDAR, and --ros1 or --ros2");
+      choice_.scans = !choice_.scans;
+      return;
     case DriveAction::help:
       help_ = !help_;
       return;
@@ -229,9 +253,21 @@ void DriveSession::act(DriveAction action) {
   }
 }
 
+std::vector<PictureLine> DriveSession::draw_overlay() {
+  if (!choice_.any()) return {};
+  std::vector<OverlayLine> lines;
+  const World* const world = world_->robots ? &world_->robots->world() : nullptr;
+  if (choice_.hulls) overlay_->add_hulls(world_->pile, world, camera_->pose().position, lines);
+  if (choice_.contacts && world) Overlay::add_contacts(*world, lines);
+  if (choice_.frames && world) Overlay::add_frames(*world, lines);
+  if (choice_.scans) Overlay::add_scan(scan_, lines);
+  return project_overlay(lines, leg_->shown());
+}
+
 void DriveSession::show() {
   if (!leg_) return;  // paused before a first step: what was shown stays
   picture_.frame = &leg_->shown();
+  picture_.lines = draw_overlay();
   picture_.map = &map_;
   const Vec3 ahead = camera_->pose().world_from_camera().rotation.rotate({1, 0, 0});
   const double level = std::sqrt(ahead.x * ahead.x + ahead.y * ahead.y);
@@ -255,7 +291,8 @@ std::vector<std::string> DriveSession::status() const {
                 static_cast<unsigned long long>(s.seed), legs_, leg_->frames(), camera_->speed(),
                 s.lamp.on ? words("%.0f cd", s.lamp.intensity_cd).c_str() : "off",
                 s.air.fog_density > 0 ? words("%.3f 1/m", s.air.fog_density).c_str() : "off",
-                camera_->held_back() ? "   TOUCHES" : "", paused_ ? "   PAUSED" : ""),
+                camera_->held_back() ? "   TOUCHES" : "",
+                paused_ ? "   PAUSED" : slowness_ == 4 ? "   TIME 1/4" : slowness_ == 16 ? "   TIME 1/16" : ""),
           words("x %.2f  y %.2f  z %.2f m   roll %.0f  pitch %.0f  yaw %.0f deg   %.0f steps/s   %s"
                 "   H: help",
                 pose.position.x, pose.position.y, pose.position.z, pose.rpy_deg.x, pose.rpy_deg.y,

@@ -9,6 +9,7 @@
 #include "app/drive/drive_link.h"
 #include "app/drive/drive_window.h"
 #include "app/drive/height_map.h"
+#include "app/drive/overlay.h"
 #include "io/image/drive_picture.h"
 #include "io/live/complaints.h"
 
@@ -36,6 +37,7 @@ class DriveSession {
   void step_robot(const DriveInput& input);
   void follow(const std::vector<JointTrajectoryCommand>& trajectories);
   void show();
+  std::vector<PictureLine> draw_overlay();
   std::vector<std::string> status() const;
   void say(const std::string& words);
   void save_picture();
@@ -56,6 +58,11 @@ class DriveSession {
   double fog_ = 0.15;  // what the fog is turned on to; unit: 1/m
   double rate_ = 0;    // steps a second that are reached
   bool help_ = false, paused_ = false, quit_ = false;
+  bool one_step_ = false;  // although it is paused
+  int slowness_ = 1;       // of time
+  OverlayChoice choice_;
+  std::unique_ptr<Overlay> overlay_;  // of this world
+  LidarScan scan_;                    // the last
   Complaints complaints_{[this](const std::string& line) { say(line); }};
   std::string notice_;
   Clock::time_point notice_until_;

@@ -90,6 +90,8 @@ RgbImage draw_drive_picture(const DrivePicture& picture) {
   const std::array<int, 2> size = drive_picture_size(width, height);
   cv::Mat sheet(size[1], size[0], CV_8UC3, kPaper);
   cv::Mat colour = colour_pane(frame), depth = depth_pane(frame), map = map_pane(picture);
+  for (const PictureLine& line : picture.lines)
+    cv::line(colour, pixel(line.from), pixel(line.to), cv::Scalar(line.colour[2], line.colour[1], line.colour[0]), 1, cv::LINE_AA);
   put_help(colour, picture);
   if (!picture.notice.empty()) put_words(colour, picture.notice, {8, height - 10});
   put_words(colour, "colour", {8, 16});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,11 +11,17 @@
 
 namespace rubble {
 
+struct PictureLine {
+  std::array<double, 2> from{}, to{};      // unit: pixel
+  std::array<std::uint8_t, 3> colour{};    // red, green, blue
+};
+
 struct DrivePicture {
   const Frame* frame = nullptr;                  // with colour and depth; never null
   const RgbImage* map = nullptr;                 // square, as high as the frame
   std::vector<std::array<double, 2>> track;      // where the camera was, in the map; unit: pixel
   std::array<double, 2> heading{1, 0};           // of the camera, in the map: right and down; length 1
+  std::vector<PictureLine> lines;                // over the colour pane
   std::vector<std::string> status;               // two lines below the panes; ASCII
   std::vector<std::array<std::string, 3>> help;  // rows over the colour pane; empty: none
   std::string notice;                            // over the colour pane; empty: none

@@ -187,9 +187,7 @@ void ContactSolver::pack() {
 int ContactSolver::choose_domain_count(const ThreadPool& pool) {
   const int swept = int(heads_.size() - tree_order_.size());
   const int most = std::min({pool.threads(), swept / kLeastContacts, kMostDomains});
-  if (most < 2) return 1;
-  if (crowded_steps_ > 0) return --crowded_steps_, 1;
-  return most;
+  return most < 2 || pool.crowded() ? 1 : most;
 }
 
 }  // namespace rubble

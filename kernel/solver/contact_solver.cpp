@@ -9,8 +9,6 @@ namespace {
 constexpr float kSlowSpeed = 0.2F;  // unit: m/s
 // The same for angular speeds. unit: rad/s
 constexpr float kSlowSpin = 2.0F;
-// Number of steps on one thread after other threads did not run.
-constexpr int kCrowdedSteps = 30;
 
 PaddedMotion padded(const Motion& m) {
   return {Quad{m.linear.x, m.linear.y, m.linear.z, 0},
@@ -62,54 +60,128 @@ void ContactSolver::pack_and_note(const std::vector<Body>& bodies, const std::ve
 // for it as the plan says, also from one sweep to the next, and whoever moves his bodies waits until the others have
 // left them. So each number of a body is written and read by one thread after the other. All meet only where trees
 // are solved between two sweeps.
+//
+// A thread that waits in vain leaves its domain as it stands: another program has a processor. In the end the caller goes
+// on with what was left, domain by domain, so no result depends on it.
 class ContactSolver::Sweeper {
  public:
   Sweeper(ContactSolver& solver, const SolverSettings& settings)
       : s_(solver),
         substeps_(settings.substeps),
+        iterations_(settings.position_iterations),
         h_(settings.step / float(settings.substeps)),
         weight_(settings.gravity * h_),
         trees_(!solver.tree_contacts_.empty()),
+        stands_(std::size_t(solver.domain_count_)),
         progress_(solver.domain_count_) {}
 
-  void run(int domain) {
-    for (int substep = 0; substep < substeps_; ++substep) {
-      const std::int64_t start = substep * step_length(), solve = start + length();
-      begin_substep(domain, substep, start);
-      progress_.reach(domain, start);
-      sweep(domain, start, true, [this](const SweepSegment& segment) {
-        s_.kernels_.warm_start(s_.range(segment.begin, segment.end), s_.speeds_.data());
-      });
-      if (trees_) let_trees(domain, solve, [&] { begin_trees(substep == 0); });
-      progress_.reach(domain, solve);
-      sweep(domain, solve, false, [this, substep](const SweepSegment& segment) {
-        s_.kernels_.solve_velocities(s_.range(segment.begin, segment.end), is_backwards(substep),
-                                     1 / h_, weight_,
-                                     s_.moved_.data(), s_.speeds_.data());
-      });
-      if (trees_) let_trees(domain, solve + length(), [&] { solve_trees(); });
-    }
-    wait_for_visitors(domain, substeps_ * step_length());
-    move(domain);
+  void solve_velocities(ThreadPool& pool) {
+    run(pool, [this](int domain) { return advance(domain); });
+  }
+  void push(ThreadPool& pool) {
+    run(pool, [this](int domain) { return advance_push(domain); });
   }
 
-  void push(int domain, int iterations) {
-    const std::int64_t step = (trees_ ? 2 : 1) * length();
-    for (int iteration = 0; iteration < iterations; ++iteration) {
-      const std::int64_t start = iteration * step;
-      progress_.reach(domain, start);
-      sweep(domain, start, false, [this](const SweepSegment& segment) {
-        for (int i = segment.begin; i < segment.end; ++i) s_.push(i);
-      });
-      if (trees_) {
-        let_trees(domain, start + length(), [&] { s_.tree_contacts_.solve_pushes(s_.moved_.data()); });
+ private:
+  // Where a domain stands: what it does next.
+  enum class Stage { begin, warm_start, begin_trees, meet_after_warm_start, solve, solve_trees, meet_after_solve };
+  struct Stand {
+    int round = 0;  // substep or iteration
+    Stage stage = Stage::begin;
+    std::size_t segment = 0;
+    bool done = false;
+  };
+
+  // advance(domain): does the next thing; false: it must wait for another domain.
+  template <typename Advance>
+  void run(ThreadPool& pool, const Advance& advance) {
+    pool.run_together(s_.domain_count_, [&](int domain) {
+      while (!stands_[std::size_t(domain)].done)
+        if (!advance(domain) && !progress_.wait_until([&] { return advance(domain); })) return;
+    });
+    if (!progress_.crowded()) return;
+    pool.note_crowded();
+    for (bool done = false; !done;) {
+      done = true;
+      for (int domain = 0; domain < s_.domain_count_; ++domain) {
+        while (!stands_[std::size_t(domain)].done && advance(domain)) {
+        }
+        done = done && stands_[std::size_t(domain)].done;
       }
     }
   }
 
-  bool crowded() const { return progress_.crowded(); }
+  bool advance(int domain) {
+    Stand& stand = stands_[std::size_t(domain)];
+    const std::int64_t start = stand.round * step_length(), solve = start + length();
+    switch (stand.stage) {
+      case Stage::begin:
+        if (stand.round > 0) {
+          if (!have_left(domain, start)) return false;
+          move(domain);
+        }
+        if (stand.round == substeps_) return stand.done = true;
+        fall(domain);
+        progress_.reach(domain, start);
+        return go_on(stand, Stage::warm_start);
+      case Stage::warm_start:
+        if (is_swept(domain)) return go_on(stand, trees_ ? Stage::begin_trees : Stage::meet_after_warm_start);
+        return sweep(domain, start, true, [this](const SweepSegment& segment) {
+          s_.kernels_.warm_start(s_.range(segment.begin, segment.end), s_.speeds_.data());
+        });
+      case Stage::begin_trees:
+        return let_trees(domain, solve, Stage::meet_after_warm_start, [&] { begin_trees(stand.round == 0); });
+      case Stage::meet_after_warm_start:
+        progress_.reach(domain, solve);
+        if (trees_ && !progress_.all_reached(solve)) return false;
+        return go_on(stand, Stage::solve);
+      case Stage::solve:
+        if (is_swept(domain)) return trees_ ? go_on(stand, Stage::solve_trees) : begin_round(stand);
+        return sweep(domain, solve, false, [&](const SweepSegment& segment) {
+          s_.kernels_.solve_velocities(s_.range(segment.begin, segment.end), is_backwards(stand.round), 1 / h_, weight_,
+                                       s_.moved_.data(), s_.speeds_.data());
+        });
+      case Stage::solve_trees:
+        return let_trees(domain, solve + length(), Stage::meet_after_solve, [&] { solve_trees(); });
+      case Stage::meet_after_solve:
+        return progress_.all_reached(solve + length()) && begin_round(stand);
+    }
+    return false;
+  }
 
- private:
+  bool advance_push(int domain) {
+    Stand& stand = stands_[std::size_t(domain)];
+    const std::int64_t start = stand.round * (trees_ ? 2 : 1) * length();
+    switch (stand.stage) {
+      case Stage::begin:
+        if (stand.round == iterations_) return stand.done = true;
+        progress_.reach(domain, start);
+        return go_on(stand, Stage::solve);
+      case Stage::solve:
+        if (is_swept(domain)) return trees_ ? go_on(stand, Stage::solve_trees) : begin_round(stand);
+        return sweep(domain, start, false, [this](const SweepSegment& segment) {
+          for (int i = segment.begin; i < segment.end; ++i) s_.push(i);
+        });
+      case Stage::solve_trees:
+        return let_trees(domain, start + length(), Stage::meet_after_solve,
+                         [&] { s_.tree_contacts_.solve_pushes(s_.moved_.data()); });
+      default:
+        return progress_.all_reached(start + length()) && begin_round(stand);
+    }
+  }
+
+  static bool go_on(Stand& stand, Stage stage) {
+    stand.stage = stage, stand.segment = 0;
+    return true;
+  }
+  static bool begin_round(Stand& stand) {
+    ++stand.round;
+    return go_on(stand, Stage::begin);
+  }
+  bool is_swept(int domain) const {
+    return stands_[std::size_t(domain)].segment == s_.plan_.segments(domain).size();
+  }
+
   // A sweep favours the point that it comes to last; always the same one would push a tower over. There, back,
   // back and there again, the four errors cancel.
   static bool is_backwards(int substep) { return substep % 4 == 1 || substep % 4 == 2; }
@@ -124,45 +196,46 @@ class ContactSolver::Sweeper {
       s_.moved_[i].angular += s_.speeds_[i].angular * h;
     }
   }
-  // Until all others have met the domain's bodies for the last time in the sweep before.
-  void wait_for_visitors(int domain, std::int64_t start) {
+  void fall(int domain) {
+    const Quad fallen{0, 0, -weight_, 0};
+    for (int i = s_.domain_starts_[domain]; i < s_.domain_starts_[domain + 1]; ++i)
+      s_.speeds_[i].linear += fallen * make_quad(s_.share_[i]);
+  }
+  // Whether all others have met the domain's bodies for the last time in the sweep before.
+  bool have_left(int domain, std::int64_t start) const {
     for (int other = 0; other < s_.domain_count_; ++other) {
       const std::int32_t visit = s_.plan_.last_visit(other, domain);
-      if (visit != SweepPlan::kAnyTime) progress_.wait_for(other, start - step_length() + length() + visit);
+      if (visit != SweepPlan::kAnyTime && !progress_.reached(other, start - step_length() + length() + visit)) return false;
     }
+    return true;
   }
-  void begin_substep(int domain, int substep, std::int64_t start) {
-    if (substep > 0) {
-      wait_for_visitors(domain, start);
-      move(domain);
-    }
-    const Quad fall{0, 0, -weight_, 0};
-    for (int i = s_.domain_starts_[domain]; i < s_.domain_starts_[domain + 1]; ++i) {
-      s_.speeds_[i].linear += fall * make_quad(s_.share_[i]);
-    }
-  }
-  // begins: bodies were moved by their owners before it.
+  // The next segment. begins: bodies were moved by their owners before the sweep.
   template <typename Action>
-  void sweep(int domain, std::int64_t start, bool begins, const Action& action) {
-    for (const SweepSegment& segment : s_.plan_.segments(domain)) {
-      if (segment.needs >= 0) wait(segment, start, begins);
-      action(segment);
-      progress_.reach(domain, start + segment.time);
-    }
+  bool sweep(int domain, std::int64_t start, bool begins, const Action& action) {
+    Stand& stand = stands_[std::size_t(domain)];
+    const SweepSegment& segment = s_.plan_.segments(domain)[stand.segment];
+    if (segment.needs >= 0 && !is_ready(segment, start, begins)) return false;
+    action(segment);
+    progress_.reach(domain, start + segment.time);
+    ++stand.segment;
+    return true;
   }
-  void wait(const SweepSegment& segment, std::int64_t start, bool begins) {
+  bool is_ready(const SweepSegment& segment, std::int64_t start, bool begins) const {
     const std::int32_t* needs = s_.plan_.needs(segment);
     for (int other = 0; other < s_.domain_count_; ++other) {
-      if (needs[other] != SweepPlan::kAnyTime) progress_.wait_for(other, start + needs[other]);
-      if (begins && (segment.owners >> other & 1) != 0) progress_.wait_for(other, start);
+      if (needs[other] != SweepPlan::kAnyTime && !progress_.reached(other, start + needs[other])) return false;
+      if (begins && (segment.owners >> other & 1) != 0 && !progress_.reached(other, start)) return false;
     }
+    return true;
   }
-  // By one thread, at the end of a sweep, while all others wait.
+  // By one thread, at the end of a sweep, while all others wait; then all meet at `point`.
   template <typename Action>
-  void let_trees(int domain, std::int64_t point, const Action& action) {
-    progress_.meet(domain, point - 1);
+  bool let_trees(int domain, std::int64_t point, Stage then, const Action& action) {
+    progress_.reach(domain, point - 1);
+    if (!progress_.all_reached(point - 1)) return false;
     if (domain == 0) action();
-    progress_.meet(domain, point);
+    progress_.reach(domain, point);
+    return go_on(stands_[std::size_t(domain)], then);
   }
   void begin_trees(bool first) {
     s_.tree_contacts_.begin_substep(s_.speeds_.data(), first, double(weight_));
@@ -173,18 +246,16 @@ class ContactSolver::Sweeper {
   }
 
   ContactSolver& s_;
-  int substeps_;
+  int substeps_, iterations_;
   float h_, weight_;  // unit: s, m/s
   bool trees_;
+  std::vector<Stand> stands_;  // by domain; each is of one thread
   SweepProgress progress_;
 };
 
 void ContactSolver::run_substeps(const SolverSettings& settings, ThreadPool& pool) {
   Sweeper sweeper(*this, settings);
-  pool.run(domain_count_, 1, [&](int begin, int end) {
-    for (int domain = begin; domain < end; ++domain) sweeper.run(domain);
-  });
-  if (sweeper.crowded()) crowded_steps_ = kCrowdedSteps;
+  sweeper.solve_velocities(pool);
   const float h = settings.step / float(settings.substeps);
   if (!tree_contacts_.empty()) tree_contacts_.end_substeps(double(settings.gravity * h));
 }
@@ -222,11 +293,7 @@ void ContactSolver::solve_position_constraints(const SolverSettings& settings, T
   if (!any && !tree_pushes) return;
   pushed_.assign(slot_count(), trees ? 1 : 0);
   Sweeper sweeper(*this, settings);
-  pool.run(domain_count_, 1, [&](int begin, int end) {
-    for (int domain = begin; domain < end; ++domain) {
-      sweeper.push(domain, settings.position_iterations);
-    }
-  });
+  sweeper.push(pool);
 }
 
 // One batch of position correction, where that can change anything.

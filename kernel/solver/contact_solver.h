@@ -114,7 +114,6 @@ class ContactSolver {
   std::vector<float> places_, sorted_places_;  // by moving body
   std::vector<std::uint8_t> domains_;         // by moving body
   std::vector<std::int32_t> domain_starts_;   // numbers of each domain's first moving body; the end
-  int crowded_steps_ = 0;
 };
 
 }  // namespace rubble

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <thread>
 
 namespace rubble {
 
@@ -16,34 +15,35 @@ class SweepProgress {
   void reach(int thread, std::int64_t point) {
     at_[thread].value.store(point, std::memory_order_release);
   }
-  // Returns when the other thread has reached the point.
-  void wait_for(int thread, std::int64_t point) {
-    const int patience = crowded() ? kFewSpins : kSpins;
-    int tries = 0;
-    while (at_[thread].value.load(std::memory_order_acquire) < point) {
-      if (++tries < patience) {
-#if defined(__x86_64__)
-        __builtin_ia32_pause();
-#endif
-        continue;
+  bool reached(int thread, std::int64_t point) const {
+    return at_[thread].value.load(std::memory_order_acquire) >= point;
+  }
+  bool all_reached(std::int64_t point) const {
+    for (int thread = 0; thread < threads_; ++thread)
+      if (!reached(thread, point)) return false;
+    return true;
+  }
+  // Tries until it succeeds. False: in vain, as somebody does not run: another program has its processor.
+  template <typename Try>
+  bool wait_until(const Try& attempt) {
+    for (int tries = 0; !attempt(); ++tries) {
+      if (tries == kSpins || (tries % kLook == 0 && crowded())) {
+        crowded_.store(true, std::memory_order_relaxed);
+        return false;
       }
-      // It does not run: another program has its processor, or needs this one.
-      crowded_.store(true, std::memory_order_relaxed);
-      std::this_thread::yield();
+#if defined(__x86_64__)
+      __builtin_ia32_pause();
+#endif
     }
+    return true;
   }
-  void meet(int thread, std::int64_t point) {
-    reach(thread, point);
-    for (int other = 0; other < threads_; ++other) wait_for(other, point);
-  }
-  // Whether somebody waited in vain for a thread that did not run.
+  // Whether somebody waited in vain.
   bool crowded() const { return crowded_.load(std::memory_order_relaxed); }
 
  private:
-  // Tries before a thread yields: a few tenths of a millisecond, longer than it takes to wake a thread.
+  // Tries before a thread gives up: a few tenths of a millisecond, longer than it takes to wake a thread.
   static constexpr int kSpins = 20000;
-  // The same after another program was found to use the processor.
-  static constexpr int kFewSpins = 100;
+  static constexpr int kLook = 100;  // tries between looks at what others found
   struct alignas(64) Counter {
     std::atomic<std::int64_t> value{-1};
   };

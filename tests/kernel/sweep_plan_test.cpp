@@ -50,6 +50,10 @@ void meet_both(History& history, std::int32_t a, std::int32_t b, std::int32_t co
   meet(history, b, std::uint64_t(contact), of_a);
 }
 
+void wait_for(const SweepProgress& progress, int thread, std::int64_t point) {
+  while (!progress.reached(thread, point)) std::this_thread::yield();
+}
+
 // One thread in one sweep. begins: all bodies were moved by their owners before it.
 void sweep(const SweepPlan& plan, int domain, std::int64_t start, bool begins, SweepProgress& progress,
            History& history) {
@@ -57,8 +61,8 @@ void sweep(const SweepPlan& plan, int domain, std::int64_t start, bool begins, S
   for (const SweepSegment& segment : plan.segments(domain)) {
     for (int other = 0; segment.needs >= 0 && other < plan.domain_count(); ++other) {
       const std::int32_t need = plan.needs(segment)[other];
-      if (need != SweepPlan::kAnyTime) progress.wait_for(other, start + need);
-      if (begins && (segment.owners >> other & 1) != 0) progress.wait_for(other, start);
+      if (need != SweepPlan::kAnyTime) wait_for(progress, other, start + need);
+      if (begins && (segment.owners >> other & 1) != 0) wait_for(progress, other, start);
     }
     for (int i = segment.begin; i < segment.end; ++i) {
       const PlannedBatch& batch = plan.batch(i);
@@ -75,7 +79,7 @@ void move(const SweepPlan& plan, int domain, std::int64_t start, const std::vect
           SweepProgress& progress, History& history) {
   for (int other = 0; other < plan.domain_count(); ++other) {
     const std::int32_t visit = plan.last_visit(other, domain);
-    if (visit != SweepPlan::kAnyTime) progress.wait_for(other, start - plan.length() + visit);
+    if (visit != SweepPlan::kAnyTime) wait_for(progress, other, start - plan.length() + visit);
   }
   for (int body = 0; body < kBodies; ++body) {
     if (domains[std::size_t(body)] == domain) meet(history, body, kContacts, 0);

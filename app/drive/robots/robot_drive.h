@@ -34,6 +34,7 @@ class RobotDrive {
   // The scene with the robots where they are when it is drawn. It must not outlive this.
   Scene build_scene(const Scenario& drawn) const { return session_->build_scene(drawn); }
 
+  const World& world() const { return session_->world(); }
   // What was sensed since the last call.
   std::vector<Sample> take_sensed() { return session_->observe(); }
   // The robots for recorders, and what carries the camera.

@@ -40,7 +40,7 @@ TEST(LiveRos1Drive, ARobotGoesAsTopicsAskAndRunsAgainWithTheSameBits) {
   if (!has_ros1()) GTEST_SKIP() << "no rosmaster: see tools/packages-live.txt";
   const ScratchFolder scratch;
   write_robot_mission(scratch);
-  drive_in_a_window(scratch, with_a_master(), "--ros1", by_topics("/odom /joint_states /imu /scan", "robot"), "$d/robot.lua");
+  drive_in_a_window(scratch, with_a_master(), "--ros1", by_topics("/odom /joint_states /contacts /imu /scan", "robot"), "$d/robot.lua");
   if (!HasFatalFailure()) expect_the_robot_runs_again(scratch, true);
 }
 

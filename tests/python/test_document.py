@@ -38,6 +38,7 @@ class Document(unittest.TestCase):
             exec(compile(block, "docs/reference/python.md", "exec"), names)
         self.assertEqual(names["frame"]["rgb"].shape, (480, 640, 3))
         self.assertGreater(len(names["images"]), 0)
+        self.assertIn("sample", names, "the session gave samples")
         self.assertGreater(len(names["clouds"]), 0)
         self.assertGreater(names["hits"]["distance"][0], 0)
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "app/view/packed_mesh.h"
+#include "io/base/atomic_file.h"
 #include "io/mesh/mesh_file.h"
 #include "io/robot/urdf_writer.h"
 #include "io/state/track_file.h"
@@ -77,8 +77,7 @@ Json describe_robots_of(const std::string& folder, std::int64_t start_ns) {
   for (const double time : times) stamps.push_back(double(start_ns) * 1e-9 + time);
   MeshImporter importer;
   try {
-    std::ifstream file(robots + "/robots.json");
-    const Json told = Json::parse(file);
+    const Json told = Json::parse(read_whole_file(robots + "/robots.json"));
     for (const Json& robot : told.at("robots")) {
       const std::string name = robot.at("name").get<std::string>();
       Json links = Json::array();

@@ -24,6 +24,8 @@ RobotLeg make_leg(const RobotWish& wish, const RobotItem& robot, const RobotLeg&
   leg.joints = wish.joints, leg.joint_names = wish.joint_names;
   leg.linear = within(wish.forward * wish.speed + wish.linear.x, 5);
   leg.angular = within(wish.yaw * kTurn + wish.angular.z, 10);
+  // What steers without a rate of its own takes a rate as a share of a full axis.
+  const double yaw = wish.yaw + wish.angular.z / kTurn, pitch = wish.pitch - wish.angular.y / kTurn;
   if (!robot.urdf.empty()) return leg;
   if (robot.model == RobotKind::crawler && robot.flippers) {
     if (leg.flippers_deg.empty()) leg.flippers_deg.assign(4, kFlipperStart);
@@ -38,12 +40,12 @@ RobotLeg make_leg(const RobotWish& wish, const RobotItem& robot, const RobotLeg&
     leg.rate = moves ? kGaitRate * forwards : 0;
     leg.phase = last.phase + (last.rate - leg.rate) * time;  // the waves go on from where they are
     leg.amplitude = 1;
-    leg.steering_deg = kSteering * within(wish.yaw + wish.angular.z, 1);
+    leg.steering_deg = kSteering * within(yaw, 1);
   }
   if (robot.model == RobotKind::vine) {
     leg.growth = within(leg.linear, 1);
-    leg.curvature = kCurvature * within(wish.yaw + wish.angular.z, 1);
-    leg.curvature_up = kCurvature * within(wish.pitch - wish.angular.y, 1);
+    leg.curvature = kCurvature * within(yaw, 1);
+    leg.curvature_up = kCurvature * within(pitch, 1);
   }
   return leg;
 }

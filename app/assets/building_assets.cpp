@@ -1,5 +1,6 @@
 #include "app/assets/building_assets.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/assets/rebar_stubs.h"

@@ -1,5 +1,6 @@
 #include "io/import/mesh_join.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>

@@ -1,6 +1,7 @@
 // Queries against trying every triangle in the world's frame by other formulas than the queries use.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -53,18 +53,19 @@ class World {
   // range: 0 to 2. Throws InputError for a mesh without area.
   int add_surface(std::shared_ptr<const TriangleMesh> mesh, double friction);
 
-  // What else a world does, by what is asked of it. These objects refer to the world, which must outlive them.
-  class Robots;       // kernel/world/world_robots.h
-  class Structures;   // kernel/world/world_structures.h: bodies of several pieces, ties, impulses of their contacts
-  class Rest;         // kernel/world/world_rest.h
-  class Diagnostics;  // kernel/world/world_diagnostics.h: overlaps, energies, momenta, stages
-  Robots robots();
+  // What else a world does, by what is asked of it, each in a header of its own. These objects refer to the world, which
+  // must outlive them.
+  class Robots;
+  class Structures;
+  class Rest;
+  class Diagnostics;
+  Robots robots();  // world_robots.h
   const Robots robots() const;
-  Structures structures();
+  Structures structures();  // world_structures.h: bodies of several pieces, ties, impulses of their contacts
   const Structures structures() const;
-  Rest rest();
+  Rest rest();  // world_rest.h
   const Rest rest() const;
-  Diagnostics diagnostics();
+  Diagnostics diagnostics();  // world_diagnostics.h: overlaps, energies, momenta, stages
   const Diagnostics diagnostics() const;
 
   int size() const;

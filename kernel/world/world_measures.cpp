@@ -1,5 +1,6 @@
 // What can be measured of all pieces together: overlaps, energies, momenta, joints and impulses.
 #include <algorithm>
+#include <utility>
 
 #include "kernel/multibody/joints/joint.h"
 #include "kernel/multibody/springs/tree_springs.h"
@@ -83,6 +84,52 @@ Vec3 World::angular_momentum() const {
   return sum;
 }
 
+namespace {
+
+// Calls action(c) with the impulse of each point of a contact on its second body.
+template <typename Action>
+void each_contact_point(const WorldData& data, const Pair& pair, const Contact& contact, Action&& action) {
+  float sum = 0;
+  for (int k = 0; k < contact.count; ++k) sum += contact.points[k].normal_impulse;
+  for (int k = 0; k < contact.count; ++k) {
+    const ContactPoint& p = contact.points[k];
+    const double share = sum > 0 ? double(p.normal_impulse / sum) : 1.0 / contact.count;
+    const Body& a = data.bodies[pair.body_a];
+    Vec3f speed = -(a.linear + cross(a.angular, p.from_a));
+    if (pair.body_b >= 0) {
+      const Body& b = data.bodies[pair.body_b];
+      speed += b.linear + cross(b.angular, p.from_b);
+    }
+    ContactImpulse c;
+    c.point = a.world_from_com.translation + Vec3(p.from_a);
+    c.approach = std::max(0.0, -double(dot(contact.normal, speed)));
+    c.impulse = (Vec3(contact.normal) * double(contact.pressed) + Vec3(contact.friction_impulse) * kSubsteps) * share;
+    c.piece = pair.collider_b >= 0 ? data.colliders[pair.collider_b].piece : pair.body_b;
+    c.other = data.colliders[pair.collider_a].piece;
+    action(c);
+  }
+}
+
+ContactImpulse on_the_other(ContactImpulse c) {
+  std::swap(c.piece, c.other);
+  c.impulse = -c.impulse;
+  return c;
+}
+
+}  // namespace
+
+std::vector<ContactImpulse> World::contacts() const {
+  const WorldData& data = impl_->data;
+  std::vector<ContactImpulse> result;
+  for (std::size_t i = 0; i < data.pairs.size(); ++i) {
+    if (!data.pairs[i].live || !(data.contacts[i].pressed > 0)) continue;
+    each_contact_point(data, data.pairs[i], data.contacts[i], [&result](const ContactImpulse& c) {
+      result.push_back(c.piece < 0 ? on_the_other(c) : c);
+    });
+  }
+  return result;
+}
+
 std::vector<ContactImpulse> World::contact_impulses() const {
   const WorldData& data = impl_->data;
   std::vector<ContactImpulse> result;
@@ -95,27 +142,10 @@ std::vector<ContactImpulse> World::contact_impulses() const {
     const bool of_a = is_bound(pair.collider_a, pair.body_a);
     const bool of_b = is_bound(pair.collider_b, pair.body_b);
     if (!pair.live || !(contact.pressed > 0) || !(of_a || of_b)) continue;
-    float sum = 0;
-    for (int k = 0; k < contact.count; ++k) sum += contact.points[k].normal_impulse;
-    for (int k = 0; k < contact.count; ++k) {
-      const ContactPoint& p = contact.points[k];
-      const double share = sum > 0 ? double(p.normal_impulse / sum) : 1.0 / contact.count;
-      const Body& a = data.bodies[pair.body_a];
-      Vec3f speed = -(a.linear + cross(a.angular, p.from_a));
-      if (pair.body_b >= 0) {
-        const Body& b = data.bodies[pair.body_b];
-        speed += b.linear + cross(b.angular, p.from_b);
-      }
-      ContactImpulse c;
-      c.point = a.world_from_com.translation + Vec3(p.from_a);
-      c.approach = std::max(0.0, -double(dot(contact.normal, speed)));
-      const Vec3 on_b =
-          (Vec3(contact.normal) * double(contact.pressed) + Vec3(contact.friction_impulse) * kSubsteps) * share;
-      const int a_piece = data.colliders[pair.collider_a].piece;
-      const int b_piece = pair.collider_b >= 0 ? data.colliders[pair.collider_b].piece : pair.body_b;
-      if (of_a) c.piece = a_piece, c.other = b_piece, c.impulse = -on_b, result.push_back(c);
-      if (of_b) c.piece = b_piece, c.other = a_piece, c.impulse = on_b, result.push_back(c);
-    }
+    each_contact_point(data, pair, contact, [&](const ContactImpulse& c) {
+      if (of_a) result.push_back(on_the_other(c));
+      if (of_b) result.push_back(c);
+    });
   }
   for (const Tie& tie : data.ties) {
     const Contact& contact = tie.contact;

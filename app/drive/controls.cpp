@@ -166,7 +166,9 @@ std::string Controls::handle(const SDL_Event& event) {
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP:
       if (event.button.button != SDL_BUTTON_LEFT) break;
-      s.pointer = {double(event.button.x), double(event.button.y), event.type == SDL_MOUSEBUTTONDOWN};
+      s.pointer.x = event.button.x, s.pointer.y = event.button.y;
+      s.pointer.pressed = event.type == SDL_MOUSEBUTTONDOWN;
+      if (s.pointer.pressed) s.pointer.press_x = s.pointer.x, s.pointer.press_y = s.pointer.y;
       break;
     case SDL_MOUSEMOTION:
       s.pointer.x = event.motion.x, s.pointer.y = event.motion.y;

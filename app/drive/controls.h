@@ -25,7 +25,8 @@ const std::vector<KeyHelp>& all_key_help();
 // Where the mouse is in the picture; unit: pixel.
 struct Pointer {
   double x = 0, y = 0;
-  bool pressed = false;  // its left button
+  bool pressed = false;            // its left button
+  double press_x = 0, press_y = 0;  // where that went down last
 };
 
 // What the left button does: turn the camera, or pull at things while the right one turns it.

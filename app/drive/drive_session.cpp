@@ -282,6 +282,7 @@ std::vector<PictureLine> DriveSession::draw_overlay() {
   if (choice_.scans) Overlay::add_scan(scan_, lines);
   if (choice_.voids) {
     try {
+      if (voids_->take_news()) say("the voids are mapped");
       if (const VoidMap* map = voids_->map()) add_voids(*map, lines);
     } catch (const std::exception& error) {
       choice_.voids = false;

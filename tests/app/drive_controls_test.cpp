@@ -87,6 +87,8 @@ TEST_F(DriveControls, TheMousePullsWithItsLeftButtonWhereTheRightOneLooks) {
   mouse(pulling, SDL_MOUSEMOTION, 50, 60, SDL_BUTTON_LMASK);
   EXPECT_EQ(pulling.pointer().x, 50);
   EXPECT_EQ(pulling.pointer().y, 60);
+  EXPECT_EQ(pulling.pointer().press_x, 30);
+  EXPECT_EQ(pulling.pointer().press_y, 40);
   EXPECT_EQ(pulling.take().look_deg.z, 0) << "the left button does not turn";
   mouse(pulling, SDL_MOUSEMOTION, 50, 60, SDL_BUTTON_RMASK);
   EXPECT_LT(pulling.take().look_deg.z, 0);

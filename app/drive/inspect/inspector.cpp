@@ -305,20 +305,23 @@ void Inspector::turn() {
 
 // Takes hold of what is under the mouse where its button goes down, and draws it along in the plane of that depth.
 void Inspector::pull(const Pointer& pointer) {
+  if (!pointer.pressed) pressed_ = false;
   if (!pointer.pressed) return spring_.release();
   const Intrinsics& image = frame_.intrinsics;
-  const std::optional<Vec3> ray = Lens(image).direction(pointer.x, pointer.y);
-  if (!ray || !(ray->z > 0)) return;
-  const Pose world_from_optical = frame_.world_from_camera * Pose{camera_from_optical.rotation, {}};
-  const auto at_depth = [&](double depth) { return world_from_optical * (*ray * (depth / ray->z)); };
-  if (spring_.holds()) return spring_.pull_to(at_depth(held_depth_));
-  const int u = int(std::lround(pointer.x)), v = int(std::lround(pointer.y));
-  if (u < 0 || v < 0 || u >= image.width || v >= image.height) return;
-  const std::size_t pixel = std::size_t(v) * std::size_t(image.width) + std::size_t(u);
-  const std::uint32_t id = frame_.get<std::uint32_t>("instance").at(pixel);
-  if (id >= std::uint32_t(world().size())) return;
-  held_depth_ = double(frame_.depth[pixel]);
-  if (!spring_.grab(world(), int(id), at_depth(held_depth_))) say("this piece is fixed");
+  const auto at_depth = [&](double u, double v, double depth) {
+    const Vec3 ray = *Lens(image).direction(u, v);  // of a pinhole, which sees everywhere
+    return frame_.world_from_camera * Pose{camera_from_optical.rotation, {}} * (ray * (depth / ray.z));
+  };
+  if (!std::exchange(pressed_, true)) {
+    const int u = int(std::lround(pointer.press_x)), v = int(std::lround(pointer.press_y));
+    if (u < 0 || v < 0 || u >= image.width || v >= image.height) return;
+    const std::size_t pixel = std::size_t(v) * std::size_t(image.width) + std::size_t(u);
+    const std::uint32_t id = frame_.get<std::uint32_t>("instance").at(pixel);
+    if (id >= std::uint32_t(world().size())) return;
+    held_depth_ = double(frame_.depth[pixel]);
+    if (!spring_.grab(world(), int(id), at_depth(u, v, held_depth_))) say("this piece is fixed");
+  }
+  if (spring_.holds()) spring_.pull_to(at_depth(pointer.x, pointer.y, held_depth_));
 }
 
 void Inspector::act(DriveAction action) {
@@ -399,7 +402,8 @@ void Inspector::save_moment() {
   comment += touched_ > 0 ? "\n" + words("By hand: pieces were pulled during %lld steps.", static_cast<long long>(touched_))
                           : "\nNothing was touched.";
   comment += "\n`rubble run` on this settles on from there, with the same bits.";
-  const std::string path = save_snapshot(*mission_, pile_->checkpoint(), folder_, words("moment_%03d", ++moments_), comment);
+  const std::string path = save_snapshot(*mission_, pile_->checkpoint(), folder_, words("moment_%03d", ++moments_), comment,
+                                         !request_.of.asset_packs.empty());
   print_out("%s\n", path.c_str());
   std::fflush(stdout);
   say(path);
@@ -415,7 +419,7 @@ void Inspector::map_voids() {
   voids_->start(now, world().steps(), run_->threads());
 }
 
-// On robots where they are; on the flight at some of its frames.
+// On robots where they are, on the flight at its frames.
 void Inspector::add_cameras(std::vector<OverlayLine>& lines) {
   const Scenario& scenario = mission_->scenario;
   const bool rides = scenario.trajectory.ride.on();
@@ -432,12 +436,15 @@ void Inspector::add_cameras(std::vector<OverlayLine>& lines) {
   std::vector<Vec3> path;
   for (const CameraPose& pose : flight_) path.push_back(pose.world_from_camera.translation);
   add_path(path, kPathStep, lines);
-  const std::size_t shown = rides ? 1 : std::min(kShownPoses, std::max<std::size_t>(flight_.size(), 1));
+  // With robots at their time, else some from the first to the last.
+  const std::size_t last = flight_.empty() ? 0 : flight_.size() - 1, shown = robots_ ? 1 : std::min(kShownPoses, last + 1);
   for (std::size_t i = 0; i < shown; ++i) {
+    std::size_t frame = shown > 1 ? i * last / (shown - 1) : 0;
+    if (robots_) frame = std::min(last, std::size_t(double(robots_->steps()) * step_time() * scenario.trajectory.rate_hz));
     const auto carrier_of = [&](const MountedCamera& camera) -> std::optional<Pose> {
-      if (camera.ride.on() || rides) return robots_ && i == 0 ? robots_->world_from(camera.ride) : std::nullopt;
+      if (camera.ride.on() || rides) return robots_ ? robots_->world_from(camera.ride) : std::nullopt;
       if (flight_.empty()) return std::nullopt;
-      return flight_[shown > 1 ? i * (flight_.size() - 1) / (shown - 1) : 0].world_from_camera;
+      return flight_[frame].world_from_camera;
     };
     for (const PlacedCamera& camera : place_cameras(scenario, carrier_of)) add_frustum(camera, kFrustumLength, lines);
   }
@@ -453,6 +460,7 @@ std::vector<PictureLine> Inspector::draw_overlay() {
   if (choice_.cameras) add_cameras(lines);
   if (choice_.voids) {
     try {
+      if (voids_->take_news()) say("the voids are mapped");
       if (const VoidMap* map = voids_->map()) add_voids(*map, lines);
     } catch (const std::exception& error) {
       choice_.voids = false;

@@ -86,6 +86,7 @@ class Inspector {
   std::unique_ptr<VoidSurvey> voids_;
   OverlayChoice choice_;
   MouseSpring spring_;
+  bool pressed_ = false;        // the mouse's button, as it was
   double held_depth_ = 0;       // of the target, along the optical axis; unit: m
   std::int64_t touched_ = 0;    // steps with the spring, so far
   Frame frame_;

@@ -13,8 +13,8 @@ namespace rubble {
 
 // comment: of the script, lines of it. Returns the path of the script; of a mission whose robots are driven by functions,
 // which no file but its script can hold, that of the state: `rubble run MISSION --set pile.snapshot=PATH` goes on from it.
-// Throws RunError when a file cannot be written.
+// packs: see with_whole_paths(). Throws RunError when a file cannot be written.
 std::string save_snapshot(const ResolvedMission& mission, const SettleCheckpoint& moment, const std::string& folder,
-                          const std::string& name, const std::string& comment);
+                          const std::string& name, const std::string& comment, bool packs = false);
 
 }  // namespace rubble

@@ -43,7 +43,7 @@ void VoidSurvey::forget() {
 
 void VoidSurvey::start(const PileState& pile, std::int64_t step, int threads) {
   forget();
-  stop_ = false, progress_ = 0, step_ = step;
+  stop_ = told_ = false, progress_ = 0, step_ = step;
   VoidSpaceOptions options = make_void_options(voids_);
   options.threads = threads;
   options.scenery = assets_.terrain();
@@ -64,6 +64,8 @@ void VoidSurvey::start(const PileState& pile, std::int64_t step, int threads) {
     done_ = true;
   });
 }
+
+bool VoidSurvey::take_news() { return done_ && map() && !std::exchange(told_, true); }
 
 const VoidMap* VoidSurvey::map() {
   if (!done_) return nullptr;

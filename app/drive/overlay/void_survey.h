@@ -30,6 +30,7 @@ class VoidSurvey {
   bool working() const { return thread_.joinable() && !done_; }
   // The map, when it is complete. Throws, once, what the mapping threw.
   const VoidMap* map();
+  bool take_news();  // whether the map became complete since the last call
   double progress() const { return progress_; }  // 0 to 1
   PictureLabel label() const;  // what the points mean, or how far the map is
 
@@ -37,6 +38,7 @@ class VoidSurvey {
   VoidScenario voids_;
   const AssetLibrary& assets_;
   std::int64_t step_ = 0;
+  bool told_ = true;
   std::thread thread_;
   std::atomic<bool> stop_{false}, done_{false};
   std::atomic<double> progress_{0};

@@ -152,9 +152,9 @@ SettledPile settle_from_checkpoint_or_start(const ResolvedMission& mission, cons
   WorldObserver observe;
   if (recorded) observe = [&track](const World& world) { track.observe(world); };
   SettledPile settled;
-  settled.state = goes_on ? resume_settling(load_checkpoint(folder.checkpoint_file()), pile,
-                                            options, step, observe)
-                          : settle_pile(pile, options, step, observe);
+  World world(pile.types, calc_world_options(options), pile.assemblies);
+  settled.state = goes_on ? resume_settling(world, load_checkpoint(folder.checkpoint_file()), pile, options, step, observe)
+                          : settle_pieces(world, mission, pile, options, step, observe);
   settled.track = track.take();
   return settled;
 }
@@ -168,7 +168,13 @@ void save(const SettledPile& settled, std::uint64_t work, bool recorded, const R
 
 // What pile.bin is made from.
 std::uint64_t hash_work_of(const ResolvedMission& mission, const Pile& pile) {
-  const std::uint64_t settling = hash_work(pile, mission.pile_scenario.settle);
+  std::uint64_t settling = hash_work(pile, mission.pile_scenario.settle);
+  if (mission.assets.snapshot) {
+    StateHash from;
+    from.add(settling);
+    for (const char c : mission.assets.snapshot->sha256) from.add(std::int32_t(c));
+    settling = from.digest();
+  }
   const VictimScenario& victims = mission.pile_scenario.victims;
   if (victims.count == 0) return hash_fines_work(mission.pile_scenario, settling);
   StateHash hash;
@@ -259,18 +265,35 @@ SettledPile settle_in_memory(const ResolvedMission& mission, RunContext& context
   options.threads = context.threads();
   bool stopped = false;
   SettledPile settled;
-  settled.state = settle_pile(make_pile(mission), options, [&](const SettleProgress& p) {
+  const Pile pile = make_pile(mission);
+  World world(pile.types, calc_world_options(options), pile.assemblies);
+  settled.state = settle_pieces(world, mission, pile, options, [&](const SettleProgress& p) {
     show_settling(p, options, context.progress);
     stopped = !go_on();
     return !stopped;
   });
   if (stopped) throw Stopped("stopped while the pile settled; nothing is kept");
-  add_victims(mission, context.threads(), settled.state);
-  context.progress.finish(summarize_settling(settled.state, false));
-  strew(mission, context, settled.state);
-  lay_surroundings(mission.scenario, mission.assets, settled.state);
+  complete_pile(mission, context, settled.state);
   add_pile_metrics(settled.state, mission.assets, settled.metrics);
   return settled;
+}
+
+PileState settle_pieces(World& world, const ResolvedMission& mission, const Pile& pile, const SettleOptions& options,
+                        const SettleCallback& step, const WorldObserver& observe) {
+  if (!mission.assets.snapshot) return settle_pile(world, pile, options, step, observe);
+  const SettleCheckpoint from = load_checkpoint(mission.assets.snapshot_file);
+  if (from.work != hash_work(pile, options))
+    throw with_lines(mission, InputError({"", 0, "pile.snapshot", "the snapshot is of another pile or of other settling options",
+                                          "the mission, seed and `settle` that it was saved from",
+                                          "\"" + mission.assets.snapshot->file + "\"", "leave out pile.snapshot to settle from the start"}));
+  return resume_settling(world, from, pile, options, step, observe);
+}
+
+void complete_pile(const ResolvedMission& mission, RunContext& context, PileState& pile) {
+  add_victims(mission, context.threads(), pile);
+  context.progress.finish(summarize_settling(pile, false));
+  strew(mission, context, pile);
+  lay_surroundings(mission.scenario, mission.assets, pile);
 }
 
 void write_pile_files(const ResolvedMission& mission, const SettledPile& pile, RunFolder& folder,

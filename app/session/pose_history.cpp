@@ -54,6 +54,15 @@ Pose PoseHistory::place(const Mount& mount) const {
 
 Pose PoseHistory::world_from_rig() const { return place(mounts_.at(std::size_t(rig_))); }
 
+std::optional<Pose> PoseHistory::world_from(const Carrier& carrier) const {
+  const std::size_t rigs = rig_ < 0 ? 0 : 1;  // the rig comes first, then the links in their order
+  if (!carrier.on() && rigs == 0) return std::nullopt;
+  if (!carrier.on()) return world_from_rig();
+  for (std::size_t i = 0; i < ways_.links.size(); ++i)
+    if (ways_.links[i].carrier == carrier) return place(mounts_[rigs + i]);
+  return std::nullopt;
+}
+
 std::optional<RigMount> PoseHistory::mount(const std::vector<RobotRecord>& records) const {
   if (rig_ < 0) return std::nullopt;
   const Mount& rig = mounts_[std::size_t(rig_)];

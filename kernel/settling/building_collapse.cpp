@@ -14,6 +14,18 @@ namespace {
 constexpr double kSinkingTime = 2;     // of a footing; unit: s
 constexpr double kSinkingStep = 0.05;  // each step is found by a solution of all stresses; unit: s
 
+BuildingState describe_building(const World& world, int first, int count) {
+  BuildingState state;
+  state.first = first, state.count = count;
+  for (int i = first; i < first + count; ++i) {
+    const std::vector<int> bound = world.structures().bound_with(i);
+    if (bound.size() < 2 || bound.front() != i || world.piece(i).status == PieceStatus::lost) continue;
+    state.bodies.emplace_back(bound.begin(), bound.end());
+  }
+  state.ties = world.structures().ties();
+  return state;
+}
+
 }  // namespace
 
 BuildingCollapse::BuildingCollapse(World& world, const Pile& pile, const SettleOptions& options)
@@ -84,15 +96,15 @@ bool BuildingCollapse::goes_on() const {
 }
 
 BuildingState BuildingCollapse::state(const World& world) const {
-  BuildingState state;
-  state.first = collapse_->first_piece(), state.count = collapse_->piece_count();
-  for (int i = state.first; i < state.first + state.count; ++i) {
-    const std::vector<int> bound = world.structures().bound_with(i);
-    if (bound.size() < 2 || bound.front() != i || world.piece(i).status == PieceStatus::lost) continue;
-    state.bodies.emplace_back(bound.begin(), bound.end());
-  }
-  state.ties = world.structures().ties();
-  return state;
+  return describe_building(world, collapse_->first_piece(), collapse_->piece_count());
+}
+
+BuildingState find_building_state(const World& world, const Pile& pile) {
+  const Structure building = make_damaged_building(pile.building);
+  const int type = pile.building_first_type, end = type + int(building.types.size());
+  int first = 0;  // after what is placed
+  while (first < world.size() && (world.piece(first).type < type || world.piece(first).type >= end)) ++first;
+  return describe_building(world, first, int(building.pieces.size()));
 }
 
 void BuildingCollapse::before_step() {

@@ -188,7 +188,7 @@ class Settling {
       state.pieces.push_back(piece);
     }
     state.joints = world_.joints();
-    if (collapse_) state.building = collapse_->state(world_);
+    if (pile_.building.given()) state.building = collapse_ ? collapse_->state(world_) : find_building_state(world_, pile_);
     state.steps = world_.steps();
     state.simulated = world_.time();
     state.settled = settled;
@@ -278,6 +278,15 @@ PileState resume_settling(World& world, const SettleCheckpoint& checkpoint, cons
   options.validate();
   check_checkpoint(checkpoint, pile, options);
   return Settling(world, pile, options, progress, observe).resume(checkpoint);
+}
+
+SettleCheckpoint make_rest_checkpoint(const World& world, const Pile& pile, const SettleOptions& options) {
+  SettleCheckpoint checkpoint;
+  checkpoint.work = hash_work(pile, options);
+  checkpoint.layers = std::int32_t(pile.layers.size());
+  checkpoint.layer_steps = 1;
+  checkpoint.world = encode_snapshot(*world.snapshot());
+  return checkpoint;
 }
 
 WorldOptions calc_world_options(const SettleOptions& options) {

@@ -81,6 +81,12 @@ class World {
   // Sets the velocities of a piece and wakes it. Immovable pieces do not change. A link moves its whole tree as one
   // rigid body, unless the root is immovable.
   void set_velocity(int index, const Vec3& linear, const Vec3& angular);
+  // An impulse on a piece at a point of the world; wakes it. A link passes it on to its tree, pieces of a rigid body to the
+  // body. No effect on what is immovable or lost. unit: N s, m
+  void apply_impulse(int index, const Vec3& point, const Vec3& impulse);
+  // Change of the velocity of a piece at that point by an impulse of 1 N s there along X, Y, Z, as columns. Zero for what
+  // is immovable or lost. unit: 1/kg
+  Mat3 impulse_response(int index, const Vec3& point) const;
   // Moves a piece and wakes it and its neighbours; links as above.
   void set_pose(int index, const Pose& world_from_body);
   void wake_all();

@@ -3,17 +3,19 @@
 #include <chrono>
 #include <cstdio>
 
+#include "app/control/robot_control.h"
 #include "app/fines/lay_fines.h"
 #include "app/pipeline/stages.h"
 #include "app/provenance/earlier_files.h"
 #include "app/scene/build_scene.h"
+#include "app/simulators/build_sim_scene.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
 #include "app/surroundings/lay_surroundings.h"
 #include "app/victims/place_victims.h"
 #include "io/base/atomic_file.h"
-#include "io/mesh/pile_export.h"
 #include "io/mesh/track_glb.h"
+#include "io/scenes/pile_export.h"
 #include "io/state/checkpoint_file.h"
 #include "io/state/pile_state_file.h"
 #include "io/state/track_file.h"
@@ -303,13 +305,20 @@ void write_pile_files(const ResolvedMission& mission, const SettledPile& pile, R
   if (outputs.stl) formats.push_back("stl");
   if (formats.empty() && !outputs.track) return;
   context.progress.start("export");
-  PileModel model = build_pile_model(mission.assets, pile.state);
-  model.gravity = mission.pile_scenario.settle.gravity;
+  BuiltScene built;
+  if (needs_scene(formats)) {
+    const std::size_t warned = context.warnings.size();
+    built = build_sim_scene(mission, pile.state, make_robots(mission, context), {}, context.threads());
+    context.warnings.resize(warned);  // those of robots come when they are driven
+    for (const std::string& note : list_notes(built, formats)) context.warnings.push_back("outputs.meshes: " + note);
+  } else {
+    built.model = build_mesh_model(mission.assets, pile.state, formats, context.threads());
+  }
   for (const MeshFormat& format : mesh_formats())
     if (format.is_folder && std::find(formats.begin(), formats.end(), format.name) != formats.end())
       remove_folder_of_killed_run(folder.file(format.leaves.back()));
   for (const std::string& format : formats)
-    for (const std::string& name : export_pile(model, format, folder.path())) folder.add(name);
+    for (const std::string& name : export_pile(built.model, format, folder.path())) folder.add(name);
   if (outputs.track) {
     write_track_glb(folder.file("track.glb"), build_track_model(mission.assets, pile.state), pile.track);
     folder.add("track.glb");

@@ -16,8 +16,6 @@ namespace {
 constexpr double kMostDepth = 0.005;
 constexpr double kStuckDistance = 0.02;  // in a second; unit: m
 constexpr double kMovedDistance = 0.01;  // unit: m
-constexpr double kFeltReach = 60;  // about the Z axis, as far as surroundings are felt; unit: m
-constexpr double kSurroundingsFriction = 0.8;  // of asphalt and walls, as of concrete; unit: 1
 
 WorldOptions world_options(const RobotRunOptions& options) {
   WorldOptions world;

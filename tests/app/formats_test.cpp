@@ -8,7 +8,7 @@
 
 #include "app/formats/recording_formats.h"
 #include "app/provenance/earlier_files.h"
-#include "io/mesh/pile_export.h"
+#include "io/scenes/pile_export.h"
 #include "scripting/scenario/scenario_schema.h"
 
 namespace rubble::testing {

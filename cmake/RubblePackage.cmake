@@ -31,8 +31,7 @@ set(RUBBLE_PUBLIC_HEADERS
   kernel/model/track.h
   kernel/model/track_builder.h
   kernel/model/world_input.h
-  kernel/robot/bundled.h
-  kernel/robot/gaits.h
+  kernel/robot/drive_commands.h
   kernel/robot/odometry.h
   kernel/robot/robot_run.h
   kernel/settling/collapse_report.h
@@ -40,8 +39,12 @@ set(RUBBLE_PUBLIC_HEADERS
   kernel/settling/settle.h
   kernel/settling/settle_checkpoint.h
   kernel/settling/track_recorder.h
-  kernel/world/world.h)
-set(RUBBLE_LIBRARIES rubble_base rubble_kernel rubble_files)
+  kernel/world/world.h
+  scripting/robots/crawler.h
+  scripting/robots/rover.h
+  scripting/robots/snake.h
+  scripting/robots/vine.h)
+set(RUBBLE_LIBRARIES rubble_base rubble_kernel rubble_robots rubble_files)
 if(TARGET rubble_voids)
   list(APPEND RUBBLE_LIBRARIES rubble_queries rubble_voids)
   list(APPEND RUBBLE_PUBLIC_HEADERS

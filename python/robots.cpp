@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "app/control/robot_control.h"
-#include "kernel/robot/bundled.h"
-#include "kernel/robot/gaits.h"
+#include "kernel/robot/drive_commands.h"
 #include "kernel/robot/robot_run.h"
 #include "python/parts.h"
 #include "python/robot_commands.h"
+#include "scripting/robots/robot_kind.h"
 
 namespace rubble::python {
 namespace {
@@ -23,12 +23,9 @@ void expect_finite(const std::vector<double>& values, const char* key, const cha
          expected);
 }
 
-RobotModel make_model(const std::string& name) {
-  if (name == "snake") return make_snake();
-  if (name == "crawler") return make_crawler();
-  if (name == "rover") return make_rover();
-  if (name == "vine") return make_vine();
-  throw InputError({"", 0, "model", "unknown robot", "snake, crawler, rover or vine", "\"" + name + "\"", ""});
+RobotModel make_model(const std::string& kind) {
+  const RobotItem robot = make_robot_item(kind);
+  return kind_of(robot).make(robot);
 }
 
 RobotRunOptions run_options(const Scenario& scenario, bool fixed_debris, int threads) {
@@ -95,13 +92,13 @@ RobotCommand make_twist_command(const RobotModel& model, double linear, double a
   expect(flippers.empty() || flippers.size() == wanted, "flippers", "wrong number of angles",
          wanted ? std::to_string(wanted) + " or none" : "none");
   expect_finite(flippers, "flippers", "radians");
-  return drive_sides(model, {linear, angular}, flippers);
+  return drive_sides(model, linear, angular, flippers);
 }
 
 RobotCommand make_growth_command(const RobotModel& model, double speed, double left, double up) {
-  expect(model.tube.has_value(), "grow", "this robot does not grow", "vine");
+  expect(model.tube.has_value(), "grow", "this robot does not grow", "a robot with a tube");
   expect_finite({speed, left, up}, "grow", "a finite speed and finite curvatures");
-  return drive_vine(model, {speed, left, up});
+  return grow_tube(model, speed, left, up);
 }
 
 RobotCommand make_joints_command(const RobotModel& model, const std::vector<double>& targets) {

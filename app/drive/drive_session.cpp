@@ -129,11 +129,9 @@ void DriveSession::step_robot(const DriveInput& input) {
   if (!leg_) {
     leg_ = std::make_unique<DriveLeg>(*world_, folder_, ++legs_, false, listener());
   } else {
-    RobotWish wish;
-    wish.forward = input.forward, wish.yaw = input.yaw, wish.pitch = -input.pitch, wish.roll = input.roll;
-    wish.linear = input.linear, wish.angular = input.angular;
-    wish.speed = camera_->speed();
-    world_->robots->advance(wish, leg_->frames() / rate);
+    TeleopCommand asked = input;
+    asked.speed = camera_->speed();
+    world_->robots->advance(asked, leg_->frames() / rate);
   }
   camera_->put(make_driven_pose(world_->robots->world_from_rig()));
 }

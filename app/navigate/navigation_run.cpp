@@ -8,10 +8,10 @@
 #include "app/navigate/pilot.h"
 #include "app/pipeline/stages.h"
 #include "kernel/base/portable_math.h"
-#include "kernel/robot/bundled.h"
-#include "kernel/robot/gaits.h"
+#include "kernel/robot/drive_commands.h"
 #include "kernel/robot/robot_run.h"
 #include "render/lidar/lidar.h"
+#include "scripting/robots/crawler.h"
 #include "scripting/scenario/lidar_scenario.h"
 
 namespace rubble {
@@ -136,8 +136,7 @@ class Drive {
     if (output.state == NavigatorState::gave_up) end_ = NavigationEnd::gave_up;
     if (output.state == NavigatorState::arrived) end_ = NavigationEnd::arrived;
     score_.way.push_back({base, yaw_of(sense.state.links.front().world_from_link), pilot_.target()});
-    return drive_tracks(model_, {output.linear, output.angular / kTurnShare},
-                         std::vector<double>(4, kFlippers));
+    return drive_sides(model_, output.linear, output.angular / kTurnShare, std::vector<double>(4, kFlippers));
   }
 
   double time() const { return (score_.periods - 1) * rules_.period; }

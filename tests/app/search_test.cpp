@@ -18,8 +18,8 @@
 #include "app/victims/place_victims.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/queries/queries.h"
-#include "kernel/robot/bundled.h"
-#include "kernel/robot/gaits.h"
+#include "kernel/robot/drive_commands.h"
+#include "scripting/robots/crawler.h"
 #include "kernel/robot/robot_run.h"
 #include "tests/app/program.h"
 #include "tests/app/tiny_run.h"
@@ -144,7 +144,7 @@ TEST(Victims, ArePushedByARobotThatIsHeavyEnough) {
     RobotRun run(make_laid_pile(settled.mission, settled.pile), settled.pile, options);
     RobotModel model = make_crawler();
     for (RobotLink& link : model.links) link.mass *= mass, link.inertia = link.inertia * mass;
-    run.add(model, start, [&](const RobotSense&) { return drive_tracks(model, {speed, 0}, {1, 1, 1, 1}); });
+    run.add(model, start, [&](const RobotSense&) { return drive_sides(model, speed, 0, {1, 1, 1, 1}); });
     Push push;
     run.run([&](double) {
       for (const RobotContact& contact : run.world().robot_contacts(0))

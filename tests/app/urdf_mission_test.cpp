@@ -8,8 +8,9 @@
 
 #include "app/robots/robot_files.h"
 #include "app/robots/robot_log.h"
-#include "kernel/robot/bundled.h"
-#include "kernel/robot/gaits.h"
+#include "kernel/robot/drive_commands.h"
+#include "scripting/robots/crawler.h"
+#include "scripting/robots/rover.h"
 #include "kernel/robot/robot_run.h"
 #include "tests/app/urdf_robots.h"
 
@@ -64,19 +65,19 @@ TEST(Urdf, TracksAreThoseOfTheMission) {
   EXPECT_NEAR(read.model.sides.distance, kCrawlerTrackDistance, 1e-6);
   ASSERT_EQ(read.model.links.size(), 3u);  // welds, yet bodies of their own
 
-  const auto end_of = [](const RobotModel& model, const Twist& twist) {
+  const auto end_of = [](const RobotModel& model, double linear, double angular) {
     RobotRunOptions run_options;
     run_options.duration = 2, run_options.threads = 1;
     RobotRun run({}, {}, run_options);
-    run.add(model, {{}, {0, 0, 0.001}}, [&](const RobotSense&) { return drive_tracks(model, twist, {}); });
+    run.add(model, {{}, {0, 0, 0.001}}, [&](const RobotSense&) { return drive_sides(model, linear, angular); });
     run.run();
     return run.world().robot_state(0).links[0].world_from_link;
   };
-  const Pose ahead = end_of(read.model, {0.3, 0}), as_bundled = end_of(bundled, {0.3, 0});
+  const Pose ahead = end_of(read.model, 0.3, 0), as_bundled = end_of(bundled, 0.3, 0);
   EXPECT_NEAR(ahead.translation.x, as_bundled.translation.x, 0.02);
   EXPECT_GT(ahead.translation.x, 0.5);
   EXPECT_NEAR(ahead.translation.y, 0, 0.02);
-  const Vec3 nose = end_of(read.model, {0, 1}).rotation.rotate({1, 0, 0});
+  const Vec3 nose = end_of(read.model, 0, 1).rotation.rotate({1, 0, 0});
   EXPECT_GT(nose.y, 0.3) << "a positive rate of turn is to the left";
 
   const auto mistake_of = [&](const std::function<void(RobotItem&)>& change) {

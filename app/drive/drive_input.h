@@ -36,6 +36,12 @@ struct DriveInput : TeleopCommand {  // its `speed` is the camera's or the robot
   Vec3 look_deg;                     // turned at once, by the mouse: about X, Y, Z; unit: degree
   std::vector<JointTrajectoryCommand> trajectories;  // for the joints of a robot, in the order in which they came
   std::vector<DriveAction> actions;  // in the order in which they came
+
+  // Whether anything is to move.
+  bool moves() const {
+    return forward != 0 || roll != 0 || pitch != 0 || yaw != 0 || norm(linear) > 0 || norm(angular) > 0 || norm(look_deg) > 0 ||
+           !trajectories.empty();
+  }
 };
 
 }  // namespace rubble

@@ -74,6 +74,8 @@ class Session {
   double step_time() const { return run_options_.step; }  // unit: s
   std::int64_t steps_of_mission() const;  // as many as robot_run.duration asks for
   Pose world_from_rig() const { return history_.world_from_rig(); }  // the rig must be on a robot
+  // The way of what carries sensors so far, on to now: its last two steps may still change a little between them.
+  const std::shared_ptr<const MotionPath>& way_of(const Carrier& carrier) const { return history_.way_of(carrier, "ride"); }
   // The scene with everything where it is when it is drawn. drawn: the scenario of the camera. It must not outlive this.
   Scene build_scene(const Scenario& drawn) const;
 

@@ -81,6 +81,8 @@ void check_file_keys(const RobotItem& robot, std::size_t i, std::vector<Diagnost
       mistakes.push_back({"", 0, key_of(i, (left.empty() ? "left_" : "right_") + what), "missing",
                           "both of left_" + what + " and right_" + what + ", or neither", "one of them", ""});
   };
+  if (!robot.steering.empty() && robot.left_wheels.empty())
+    mistakes.push_back({"", 0, key_of(i, "steering"), "no wheel is driven", "left_wheels and right_wheels of a URDF robot as well", "neither", ""});
   check_sides("wheels", robot.left_wheels, robot.right_wheels);
   check_sides("tracks", robot.left_tracks, robot.right_tracks);
   if (!robot.left_wheels.empty() && !robot.left_tracks.empty())
@@ -156,6 +158,8 @@ void add_robot_item_keys(Schema& k, std::vector<RobotItem>& list) {
   k.item("robots[].wheel_radius", list, &RobotItem::wheel_radius, "URDF robot: radius of these wheels.")
       .between(0.001, 10)
       .unit("m");
+  k.item("robots[].steering", list, &RobotItem::steering,
+         "URDF robot: joints that steer wheels about the vertical axis, as those of a car; with left_wheels and right_wheels.");
   k.item("robots[].left_tracks", list, &RobotItem::left_tracks,
          "URDF robot: links around which the left tracks run, for `linear`, `angular` and odometry.");
   k.item("robots[].right_tracks", list, &RobotItem::right_tracks, "URDF robot: likewise on the right.");

@@ -52,6 +52,7 @@ struct RobotItem {
   // drive it and it has no odometry.
   std::vector<std::string> left_wheels{}, right_wheels{};
   double wheel_radius = 0.1;  // unit: m; range: 0.001 to 10
+  std::vector<std::string> steering{};  // the joints that turn wheels about the vertical axis, as those of a car
   // Of a robot from a file: the links around which tracks run, instead of driven wheels.
   std::vector<std::string> left_tracks{}, right_tracks{};
   double track_speed = 1;  // at most; unit: m/s; range: 0.01 to 20

@@ -17,6 +17,7 @@ struct RobotRunScenario {
   double duration = 10;     // unit: s; range: above 0, to 86400
   double control_hz = 60;   // range: 1 to 240
   DebrisMotion debris = DebrisMotion::free;
+  bool live_light = false;  // light of what may move is computed for every image, as while a person drives
 };
 
 class Schema;

@@ -120,6 +120,9 @@ void add_robot_keys(Schema& k, Scenario& s) {
       .unit("Hz");
   k.choice("robot_run.debris", s.robot_run.debris, {"free", "fixed"},
            "`free`: pieces move when robots push them; `fixed`: pieces do not move.");
+  k.value("robot_run.live_light", s.robot_run.live_light,
+          "Computes the light of all loose pieces for each image, as `rubble drive` does; false: baked for pieces that never "
+          "move.");
 }
 
 void check_robots(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {

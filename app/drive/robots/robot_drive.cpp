@@ -107,6 +107,7 @@ Scenario RobotDrive::scenario(const Scenario& camera) const {
   kept.trajectory = {};
   kept.trajectory.rate_hz = camera.trajectory.rate_hz;
   kept.trajectory.ride = mission_.scenario.trajectory.ride;
+  kept.robot_run.live_light = true;  // as it was drawn
   kept.robot_run.duration = double(std::max<std::int64_t>(1, session_->steps())) * session_->step_time();
   return kept;
 }

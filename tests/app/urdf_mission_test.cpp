@@ -14,6 +14,7 @@
 #include "kernel/robot/robot_run.h"
 #include "scripting/robots/crawler.h"
 #include "scripting/robots/rover.h"
+#include "kernel/world/world_robots.h"
 #include "tests/app/urdf_robots.h"
 
 namespace rubble::testing {
@@ -73,7 +74,7 @@ TEST(Urdf, TracksAreThoseOfTheMission) {
     RobotRun run({}, {}, run_options);
     run.add(model, {{}, {0, 0, 0.001}}, [&](const RobotSense&) { return drive_sides(model, linear, angular); });
     run.run();
-    return run.world().robot_state(0).links[0].world_from_link;
+    return run.world().robots().state(0).links[0].world_from_link;
   };
   const Pose ahead = end_of(read.model, 0.3, 0), as_bundled = end_of(bundled, 0.3, 0);
   EXPECT_NEAR(ahead.translation.x, as_bundled.translation.x, 0.02);
@@ -146,10 +147,10 @@ TEST(Urdf, ACarFollowsTheCurveThatItIsAskedFor) {
       });
       run.begin();
       double turned = 0;
-      Pose before = run.world().robot_state(0).links[0].world_from_link;
+      Pose before = run.world().robots().state(0).links[0].world_from_link;
       for (int i = 0; i < 960; ++i) {
         run.step();
-        const Pose now = run.world().robot_state(0).links[0].world_from_link;
+        const Pose now = run.world().robots().state(0).links[0].world_from_link;
         const Vec3 x = before.rotation.conjugate().rotate(now.rotation.rotate({1, 0, 0}));
         turned += std::atan2(x.y, x.x);
         before = now;

@@ -32,7 +32,6 @@ void add_explorer(pybind11::module_& module);
 // A flat camera, checked. Throws InputError.
 Intrinsics pinhole(int width, int height, double fov_deg);
 pybind11::array_t<double> camera_matrix(const Intrinsics& k);  // K, 3 by 3
-void add_robots(pybind11::module_& module);
 void add_sessions(pybind11::module_& module);
 void add_recordings(pybind11::module_& module);
 

@@ -14,27 +14,6 @@ Value vector_value(const Vec3& v) {
   return list;
 }
 
-// Of a robot that grows: how long it is, and what its tip meets.
-Value describe_vine(const RobotState& state) {
-  const RobotState::Link& tip = state.links.back();
-  Value vine = Value::make_table();
-  vine.set("length", Value::make_number(state.length));
-  vine.set("speed", Value::make_number(state.joints.back().speed));
-  const Vec3 forwards = tip.world_from_link.rotation.rotate({1, 0, 0});
-  vine.set("force", Value::make_number(-dot(tip.contact_force, forwards)));
-  vine.set("most_force", Value::make_number(state.tip_force));
-  return vine;
-}
-
-Value describe_tip(const Pose& world_from_tip) {
-  Value tip = Value::make_table();
-  tip.set("position", vector_value(world_from_tip.translation));
-  tip.set("forwards", vector_value(world_from_tip.rotation.rotate({1, 0, 0})));
-  tip.set("left", vector_value(world_from_tip.rotation.rotate({0, 1, 0})));
-  tip.set("up", vector_value(world_from_tip.rotation.rotate({0, 0, 1})));
-  return tip;
-}
-
 Value describe_stamp(std::int64_t stamp_ns, std::int64_t start_ns) {
   return Value::make_number(double(stamp_ns - start_ns) * 1e-9);
 }
@@ -73,7 +52,7 @@ Value describe_odometry(const OdometryReading& reading) {
   return odometry;
 }
 
-Value describe_sense(const RobotSense& sense, const RobotModel& model, double gravity, Vec3& last,
+Value describe_sense(const RobotSense& sense, const RobotKind& kind, const RobotModel& model, double gravity, Vec3& last,
                      double& last_time) {
   Value table = Value::make_table();
   table.set("t", Value::make_number(sense.time));
@@ -112,10 +91,7 @@ Value describe_sense(const RobotSense& sense, const RobotModel& model, double gr
   const Vec3 x = base.world_from_link.rotation.rotate({1, 0, 0});
   truth.set("position", vector_value(base.world_from_link.translation));
   truth.set("yaw", Value::make_number(portable::atan2(x.y, x.x)));
-  if (model.tube) {
-    truth.set("tip", describe_tip(sense.state.links.back().world_from_link));
-    table.set("vine", describe_vine(sense.state));
-  }
+  kind.tell(sense.state, table, truth);
   table.set("truth", truth);
   return table;
 }

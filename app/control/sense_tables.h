@@ -11,6 +11,7 @@
 #include "render/scene/lidar_scan.h"
 #include "render/scene/lidar_spec.h"
 #include "render/scene/reading.h"
+#include "scripting/robots/robot_kind.h"
 #include "scripting/sensors/sensor_item.h"
 #include "scripting/values/value.h"
 
@@ -18,7 +19,8 @@ namespace rubble {
 
 // gravity: unit: m/s2. last, last_time: the base's velocity at the call before, and when that was; become those of
 // this call.
-Value describe_sense(const RobotSense& sense, const RobotModel& model, double gravity, Vec3& last, double& last_time);
+Value describe_sense(const RobotSense& sense, const RobotKind& kind, const RobotModel& model, double gravity, Vec3& last,
+                     double& last_time);
 Value describe_odometry(const OdometryReading& reading);
 // start_ns: the stamp of the robots' time 0.
 Value describe_scan(const LidarScan& scan, const LidarSpec& spec, std::int64_t start_ns);

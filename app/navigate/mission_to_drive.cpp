@@ -6,6 +6,7 @@
 #include "app/mission/scenario_lua.h"
 #include "io/base/atomic_file.h"
 #include "kernel/base/portable_math.h"
+#include "scripting/robots/robot_kind.h"
 
 namespace rubble {
 namespace {
@@ -30,8 +31,8 @@ std::string goal_options(const std::vector<Vec3>& waypoints) {
 Scenario make_mission_to_drive(const NavigationWorld& world) {
   Scenario scenario = world.mission().scenario;
   const Vec3 ahead = world.start().rotation.rotate({1, 0, 0});
-  RobotItem robot;
-  robot.model = RobotKind::crawler, robot.name = kRobot;
+  RobotItem robot = make_robot_item("crawler");
+  robot.name = kRobot;
   robot.position = world.start().translation, robot.rpy_deg = {0, 0, kDegree * portable::atan2(ahead.y, ahead.x)};
   scenario.robots = {robot};
   scenario.robot_run = {};

@@ -1,6 +1,6 @@
 // One mission of the navigation benchmark: MRPT's reactive navigator drives the crawler, in lock-step.
 //
-//   RobotRun (240 Hz) -> scan of the last period, de-skewed -> ObstacleMap -> ReactiveNavigator -> tracks
+//   Session (240 Hz) -> scan of the last period, de-skewed -> ObstacleMap -> ReactiveNavigator -> tracks
 #pragma once
 
 #include <cstdint>

@@ -122,8 +122,10 @@ Scene build_felt_scene(const Leg& leg, const ResolvedMission& mission, const See
                           });
 }
 
-// What a function is told of colours is drawn while the robot is driven: the recorded pictures are lit in the same way.
-bool senses_colours(const Scenario& scenario) {
+// What a function is told of colours is drawn while the robot is driven, and so is what a person sees: the recorded pictures
+// are lit in the same way.
+bool is_lit_live(const Scenario& scenario) {
+  if (scenario.robot_run.live_light) return true;
   for (const MountedCamera& camera : all_cameras(scenario))
     if (is_sensed(scenario, colour_sense(camera.name))) return true;
   return false;
@@ -136,7 +138,7 @@ Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen
                               leg.zero_ns);
   }
   if (seen.robots.moved.empty()) return build_scene(leg.scenario, mission.assets, pile);
-  if (senses_colours(leg.scenario)) return build_felt_scene(leg, mission, seen);
+  if (is_lit_live(leg.scenario)) return build_felt_scene(leg, mission, seen);
   return build_robot_scene(leg.scenario, mission.assets, pile, seen.robots.moved,
                            leg.scenario.start_ns);
 }

@@ -4,6 +4,7 @@
 
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
+#include "scripting/robots/robot_kind.h"
 #include "scripting/scenario/camera_mistakes.h"
 #include "scripting/scenario/pile_schema.h"
 #include "scripting/scenario/lidar_schema.h"
@@ -113,10 +114,7 @@ void check_meshes(const OutputScenario& outputs, std::vector<Diagnostic>& mistak
 
 void check_rawlog(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   if (scenario.outputs.rawlog_format == RawlogFormat::observations) return;
-  const auto has_odometry = [](const RobotItem& robot) {
-    return robot.urdf.empty() ? robot.model == RobotKind::crawler || robot.model == RobotKind::rover
-                              : !robot.left_wheels.empty() || !robot.left_tracks.empty();
-  };
+  const auto has_odometry = [](const RobotItem& robot) { return kind_of(robot).has_sides(robot); };
   const auto count = std::count_if(scenario.robots.begin(), scenario.robots.end(), has_odometry);
   if (count == 1) return;
   mistakes.push_back({"", 0, "outputs.rawlog_format", "actions need one robot with odometry",

@@ -133,10 +133,15 @@ const Allowed kSensors{{"scripting/sensors/",
                         {"kernel/base/", "scripting/values/", "scripting/trajectory/", "scripting/schema/", "scripting/sensors/",
                          "io/recording/reading_format.h", "io/ros/ros_messages.h"}}};
 
+// A robot is its files: with its model, and how it is commanded.
+const Allowed kRobots{{"scripting/robots/",
+                       {"kernel/base/", "kernel/model/", "kernel/geometry/mesh_builder.h", "kernel/robot/parts.h",
+                        "kernel/robot/drive_commands.h", "scripting/values/", "scripting/schema/", "scripting/robots/"}}};
+
 const Allowed kScripting = stack(
     {"scripting/values/", "scripting/trajectory/", "scripting/schema/", "scripting/files/", "scripting/sandbox/",
-     "scripting/packs/", "scripting/sky/", "scripting/sensors/", "scripting/scenario/", "scripting/reference/", "scripting/"},
-    {"kernel/base/", "kernel/model/everting_tube.h", "kernel/model/fines.h", "kernel/model/pile.h", "kernel/model/surroundings.h", "kernel/settling/settle.h",
+     "scripting/packs/", "scripting/sky/", "scripting/sensors/", "scripting/robots/", "scripting/scenario/", "scripting/reference/", "scripting/"},
+    {"kernel/base/", "kernel/model/fines.h", "kernel/model/pile.h", "kernel/model/surroundings.h", "kernel/settling/settle.h",
      "render/scene/",
      "render/streams/image_streams.h", "io/image/data_picture.h"});
 
@@ -158,6 +163,7 @@ const Allowed& allowed_of(const std::string& file) {
   if (starts_with(file, "io/voids/") || starts_with(file, "io/ompl/")) return kVoidFiles;
   if (starts_with(file, "io/")) return kIo;
   if (starts_with(file, "scripting/sensors/")) return kSensors;
+  if (starts_with(file, "scripting/robots/")) return kRobots;
   if (starts_with(file, "scripting/")) return kScripting;
   return starts_with(file, "app/") ? kApp : kTop;
 }

@@ -1,9 +1,9 @@
+#include "scripting/robots/vine.h"
+
 #include <cmath>
 #include <string>
 
-#include "kernel/robot/bundled.h"
 #include "kernel/robot/parts.h"
-#include "kernel/robot/bundled_looks.h"
 
 namespace rubble {
 namespace {

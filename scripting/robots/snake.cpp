@@ -1,11 +1,52 @@
-#include "kernel/robot/gaits.h"
+#include "scripting/robots/snake.h"
 
 #include <algorithm>
+#include <string>
 
 #include "kernel/base/portable_math.h"
-#include "kernel/robot/bundled.h"
+#include "kernel/robot/parts.h"
 
 namespace rubble {
+namespace {
+
+constexpr int kSnakeFacets = 12;
+// A module is narrower at its ends, so that only neighbours, which pass each other, meet in a bend; unit: 1.
+constexpr double kEndRadius = 0.75, kNarrowing = 0.2;
+// The servo's gains; unit: N m/rad, N m s/rad. Stiff: 7 N m are reached at 4 degrees.
+constexpr double kStiffness = 100, kDamping = 2;
+constexpr double kMostBend = 1.5707963267948966;  // unit: rad
+
+}  // namespace
+
+RobotModel make_snake(const SnakeOptions& options) {
+  RobotModel model;
+  model.name = "snake";
+  const double radius = 0.5 * options.diameter, length = options.length;
+  model.headlamp.link_from_lamp.translation = {0.55 * length, 0, 0};
+  for (int i = 0; i < options.modules; ++i) {
+    RobotLink link;
+    link.name = i == 0 ? "head" : "module_" + std::to_string(i);
+    const double front = i == 0 ? 0.5 * length : 0;
+    link.parts = {make_tube(radius, kEndRadius * radius, front - length, front, kNarrowing * length,
+                            kSnakeFacets)};
+    link.friction = options.friction;
+    set_mass(options.module_mass, link);
+    link.looks = make_snake_module_looks({radius, length, front}, i % 2 == 1, i == 0, i + 1 == options.modules);
+    model.links.push_back(link);
+    if (i == 0) continue;
+    RobotJoint joint;
+    joint.name = "joint_" + std::to_string(i);
+    joint.parent = i - 1;
+    joint.child = i;
+    joint.parent_from_child.translation = {i == 1 ? -0.5 * length : -length, 0, 0};
+    joint.axis = i % 2 == 1 ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
+    joint.lower = -kMostBend;
+    joint.upper = kMostBend;
+    joint.motor = {options.effort, options.speed, kStiffness, kDamping};
+    model.joints.push_back(joint);
+  }
+  return model;
+}
 
 SnakeGait lateral_undulation() {
   SnakeGait gait;
@@ -62,46 +103,6 @@ RobotCommand calc_gait(const RobotModel& model, const SnakeGait& gait, double ti
     command.joints.push_back(
         {MotorMode::position, grown * (angle + (lateral ? gait.steering : 0))});
   }
-  return command;
-}
-
-RobotCommand drive_tracks(const RobotModel& model, const Twist& twist,
-                           const std::vector<double>& flippers) {
-  RobotCommand command;
-  const double apart = 0.5 * model.sides.distance * twist.angular;
-  for (const RobotLink& link : model.links)
-    command.belts.push_back(link.belt_side == 0 ? 0 : link.belt_side > 0 ? twist.linear - apart : twist.linear + apart);
-  std::size_t flipper = 0;
-  for (const RobotJoint& joint : model.joints) {
-    MotorCommand motor;
-    if (joint.motor.effort > 0) {
-      motor = {MotorMode::position, flipper < flippers.size() ? flippers[flipper] : joint.start};
-      ++flipper;
-    }
-    command.joints.push_back(motor);
-  }
-  return command;
-}
-
-RobotCommand drive_wheels(const RobotModel& model, const Twist& twist) {
-  RobotCommand command;
-  for (const RobotJoint& joint : model.joints)
-    command.joints.push_back({MotorMode::position, joint.start});
-  const SideDrive& sides = model.sides;
-  const double apart = 0.5 * sides.distance * twist.angular;
-  for (int i : sides.left)
-    command.joints[std::size_t(i)] = {MotorMode::velocity, (twist.linear - apart) / sides.radius};
-  for (int i : sides.right)
-    command.joints[std::size_t(i)] = {MotorMode::velocity, (twist.linear + apart) / sides.radius};
-  return command;
-}
-
-RobotCommand drive_vine(const RobotModel& model, const Growth& growth) {
-  RobotCommand command;
-  command.joints.resize(model.joints.size());
-  command.joints.back() = {MotorMode::velocity, growth.speed};
-  command.curve_left = growth.curve_left;
-  command.curve_up = growth.curve_up;
   return command;
 }
 

@@ -1,4 +1,4 @@
-#include "kernel/robot/link_shapes.h"
+#include "scripting/robots/link_shapes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,6 +10,9 @@
 
 namespace rubble {
 
+// Edges flatter than this are round; unit: degree
+inline constexpr double kLooksCrease = 38;
+
 // The frame whose X axis looks along `axis` (unit length).
 Pose facing(const Vec3& centre, const Vec3& axis);
 

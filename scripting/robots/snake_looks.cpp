@@ -1,8 +1,9 @@
+#include "scripting/robots/snake.h"
+
 #include <algorithm>
 
 #include "kernel/base/portable_math.h"
-#include "kernel/robot/bundled_looks.h"
-#include "kernel/robot/link_shapes.h"
+#include "scripting/robots/link_shapes.h"
 
 namespace rubble {
 namespace {

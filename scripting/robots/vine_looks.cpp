@@ -1,5 +1,6 @@
-#include "kernel/robot/bundled_looks.h"
-#include "kernel/robot/link_shapes.h"
+#include "scripting/robots/vine.h"
+
+#include "scripting/robots/link_shapes.h"
 
 namespace rubble {
 namespace {

@@ -1,5 +1,5 @@
-#include "kernel/robot/bundled.h"
-#include "kernel/robot/bundled_looks.h"
+#include "scripting/robots/crawler.h"
+
 #include "kernel/robot/parts.h"
 
 namespace rubble {

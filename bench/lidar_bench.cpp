@@ -57,7 +57,7 @@ struct Rate {
   double processor = 0;  // of all threads: where other programs share the processors it alone means something; unit: s
 };
 
-Rate measure(LidarModel model, const Scene& scene, std::shared_ptr<LidarWorld> world, int threads, int scans) {
+Rate measure(LidarModel model, const Scene& scene, std::shared_ptr<RayWorld> world, int threads, int scans) {
   LidarScenario scenario;
   scenario.model = model;
   const auto moving = [](std::int64_t stamp_ns) {
@@ -81,7 +81,7 @@ void run(const std::vector<int>& threads, int scans, int stones) {
       {LidarModel::mid360, "mid360"}, {LidarModel::utm30lx, "utm30lx"}};
   Scene clear = make_field(stones), smoke = clear;
   smoke.air.fog_density = 0.1;
-  const auto world = std::make_shared<LidarWorld>(clear);
+  const auto world = std::make_shared<RayWorld>(clear);
   std::printf("%-8s %7s %9s %14s %16s %22s\n", "model", "threads", "air", "points/scan", "points/s of wall",
               "points/s of processor");
   for (const auto& [model, name] : models)

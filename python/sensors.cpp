@@ -9,8 +9,8 @@
 #include "python/arrays.h"
 #include "python/parts.h"
 #include "render/gl/gl_context.h"
-#include "render/lidar/depth_rays.h"
 #include "render/lidar/lidar.h"
+#include "render/rays/depth_rays.h"
 #include "render/renderer.h"
 
 namespace rubble::python {
@@ -81,7 +81,7 @@ class DepthCamera {
   py::array_t<double> matrix() const { return camera_matrix(rays_.intrinsics()); }
 
  private:
-  LidarWorld world_;
+  RayWorld world_;
   DepthRays rays_;
   ThreadPool pool_;
 };
@@ -97,7 +97,7 @@ LidarModel model_named(const std::string& name) {
 class PyLidar {
  public:
   PyLidar(SharedPile settled, const std::string& model, bool noise, std::uint64_t seed, int threads)
-      : settled_(std::move(settled)), world_(std::make_shared<LidarWorld>(scene_of(*settled_))), seed_(seed),
+      : settled_(std::move(settled)), world_(std::make_shared<RayWorld>(scene_of(*settled_))), seed_(seed),
         threads_(threads) {
     LidarScenario lidar;
     lidar.model = model_named(model), lidar.noise = noise;
@@ -105,10 +105,10 @@ class PyLidar {
   }
 
   // The sensor stands still.
-  py::array scan(const DoubleArray& world_from_lidar, int number) const {
-    const Pose pose = to_pose(world_from_lidar, "pose");
+  py::array scan(const DoubleArray& world_from_sensor, int number) const {
+    const Pose pose = to_pose(world_from_sensor, "pose");
     const Scenario& s = settled_->mission.scenario;
-    LidarScan scan;
+    RangeScan scan;
     {
       const py::gil_scoped_release free;
       Lidar lidar(spec_, world_, {[pose](std::int64_t) { return pose; }, s.start_ns}, Medium(s.air, s.seed), seed_,
@@ -121,7 +121,7 @@ class PyLidar {
 
  private:
   SharedPile settled_;
-  std::shared_ptr<LidarWorld> world_;
+  std::shared_ptr<RayWorld> world_;
   LidarSpec spec_;
   std::uint64_t seed_;
   int threads_;
@@ -130,7 +130,7 @@ class PyLidar {
 }  // namespace
 
 void add_sensors(py::module_& module) {
-  PYBIND11_NUMPY_DTYPE(LidarPoint, x, y, z, intensity, time, ring, column);
+  PYBIND11_NUMPY_DTYPE(ScanPoint, x, y, z, intensity, time, ring, column);
   py::class_<FrameRenderer>(module, "_Renderer")
       .def(py::init([](const SharedPile& s, int threads) {
         return std::make_unique<FrameRenderer>(s, threads);

@@ -129,11 +129,11 @@ class MissionSession {
     out["linear_acceleration"] = from_vector(s.linear_acceleration);
     return out;
   }
-  py::dict describe(LidarScan& s) const {
+  py::dict describe(RangeScan& s) const {
     py::dict out = named("lidar", scenario().lidars[std::size_t(s.sensor)].name);
     const auto count = py::ssize_t(s.points.size());
     out["points"] = take_vector(std::move(s.points), {count});
-    out["pose"] = from_pose(s.world_from_lidar.front());
+    out["pose"] = from_pose(s.world_from_sensor.front());
     return out;
   }
   py::dict describe(const Reading& s) const {

@@ -42,7 +42,7 @@ RobotSenses::Sensed RobotSenses::sensed() const {
 }
 
 std::string RobotSenses::sense_of(const Sample& sample) const {
-  if (const auto* scan = std::get_if<LidarScan>(&sample)) return scenario_.lidars[std::size_t(scan->sensor)].name;
+  if (const auto* scan = std::get_if<RangeScan>(&sample)) return scenario_.lidars[std::size_t(scan->sensor)].name;
   if (const auto* reading = std::get_if<ImuSample>(&sample)) return imu_names_[std::size_t(reading->sensor)];
   if (const auto* values = std::get_if<Reading>(&sample)) return scenario_.sensors[std::size_t(values->sensor)].name;
   const auto* frame = std::get_if<Frame>(&sample);
@@ -67,7 +67,7 @@ void RobotSenses::tell(std::size_t robot, Value& told) {
   };
   // Of several scans and pictures since the last call, the newest; of readings, all.
   for (const auto& sample : std::exchange(untold_[robot], {})) {
-    if (const auto* scan = std::get_if<LidarScan>(&*sample)) {
+    if (const auto* scan = std::get_if<RangeScan>(&*sample)) {
       const LidarScenario& lidar = scenario_.lidars[std::size_t(scan->sensor)];
       lidars.set(lidar.name, describe_scan(*scan, lidar.spec(), start));
     } else if (const auto* reading = std::get_if<ImuSample>(&*sample)) {

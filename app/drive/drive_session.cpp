@@ -166,7 +166,7 @@ FrameListener DriveSession::listener() {
   return [this](const Frame& frame) {
     const std::vector<Sample> sensed = world_->robots ? world_->robots->take_sensed() : std::vector<Sample>();
     for (const Sample& sample : sensed)
-      if (const auto* scan = std::get_if<LidarScan>(&sample)) scan_ = *scan;
+      if (const auto* scan = std::get_if<RangeScan>(&sample)) scan_ = *scan;
     link_->publish(frame, sensed);
   };
 }

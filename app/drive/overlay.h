@@ -14,7 +14,7 @@
 #include "kernel/model/pile_state.h"
 #include "kernel/world/world.h"
 #include "render/scene/frame.h"
-#include "render/scene/lidar_scan.h"
+#include "render/scene/range_scan.h"
 
 namespace rubble {
 
@@ -42,7 +42,7 @@ class Overlay {
   // X red, Y green, Z blue, 10 cm long, of every link.
   static void add_frames(const World& world, std::vector<OverlayLine>& lines);
   // Echoes as small crosses, by height from blue to red.
-  static void add_scan(const LidarScan& scan, std::vector<OverlayLine>& lines);
+  static void add_scan(const RangeScan& scan, std::vector<OverlayLine>& lines);
 
  private:
   const Shape& shape_of(int type);

@@ -119,12 +119,12 @@ class Drive {
     const auto place = [this, base_from_lidar, start](std::int64_t stamp) {
       return history_.at(double(stamp - start) * 1e-9 - rules_.period) * base_from_lidar;
     };
-    return {make_lidar_spec(rules_), world_.lidar_world(), {place, start}, Medium(scenario.air, scenario.seed), seed,
+    return {make_lidar_spec(rules_), world_.ray_world(), {place, start}, Medium(scenario.air, scenario.seed), seed,
             world_.threads()};
   }
 
   RobotCommand control(const RobotSense& sense) {
-    const LidarScan scan = lidar_.take(score_.periods++);
+    const RangeScan scan = lidar_.take(score_.periods++);
     const auto before = std::chrono::steady_clock::now();
     map(scan);
     const Vec3 base = sense.state.links.front().world_from_link.translation;
@@ -142,11 +142,11 @@ class Drive {
 
   double time() const { return (score_.periods - 1) * rules_.period; }
 
-  void map(const LidarScan& scan) {
-    const int last = int(scan.world_from_lidar.size()) - 1;
-    for (const LidarPoint& p : scan.points) {
-      const int sample = int(double(p.time) * 1e9 / double(LidarScan::kMotionStep) + 0.5);
-      pilot_.see(scan.world_from_lidar[std::size_t(std::min(sample, last))] * Vec3{p.x, p.y, p.z});
+  void map(const RangeScan& scan) {
+    const int last = int(scan.world_from_sensor.size()) - 1;
+    for (const ScanPoint& p : scan.points) {
+      const int sample = int(double(p.time) * 1e9 / double(RangeScan::kMotionStep) + 0.5);
+      pilot_.see(scan.world_from_sensor[std::size_t(std::min(sample, last))] * Vec3{p.x, p.y, p.z});
     }
   }
 

@@ -146,11 +146,11 @@ std::vector<std::unique_ptr<ExactDepth>> make_told_depths(const Leg& leg, const 
                                                           int threads) {
   const std::vector<MountedCamera> cameras = all_cameras(leg.scenario);
   std::vector<std::unique_ptr<ExactDepth>> depths(cameras.size());
-  std::shared_ptr<LidarWorld> world;
+  std::shared_ptr<RayWorld> world;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     // Rows of a shutter are drawn each at its own time.
     if (!is_sensed(leg.scenario, cameras[i].name) || cameras[i].camera.shutter.readout > 0) continue;
-    if (!world) world = std::make_shared<LidarWorld>(build_felt_scene(leg, mission, seen));
+    if (!world) world = std::make_shared<RayWorld>(build_felt_scene(leg, mission, seen));
     depths[i] = std::make_unique<ExactDepth>(cameras[i], camera_key(leg.scenario, cameras[i]), world, threads);
   }
   return depths;
@@ -195,7 +195,7 @@ void take_samples(PreparedLeg& prepared, const Leg& leg, FrameSinks& sinks, cons
       recorded.hashes.add_robot(*robot);
     } else if (const auto* values = std::get_if<Reading>(&*sample)) {
       recorded.hashes.add_reading(*values);
-    } else if (const auto* scan = std::get_if<LidarScan>(&*sample)) {
+    } else if (const auto* scan = std::get_if<RangeScan>(&*sample)) {
       recorded.hashes.add_lidar(*scan);
       throw_if_stopped(folder.path());
     } else {

@@ -80,14 +80,14 @@ std::uint64_t hash_robots(const std::vector<RobotSample>& samples) {
   return hash.digest();
 }
 
-std::uint64_t hash_scan(const LidarScan& scan) {
+std::uint64_t hash_scan(const RangeScan& scan) {
   StateHash hash;
   hash.add(scan.stamp_ns);
-  for (const Pose& pose : scan.world_from_lidar) {
+  for (const Pose& pose : scan.world_from_sensor) {
     for (const double c : {pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z}) hash.add(c);
     add(hash, pose.translation);
   }
-  hash.add_bytes(scan.points.data(), scan.points.size() * sizeof(LidarPoint));
+  hash.add_bytes(scan.points.data(), scan.points.size() * sizeof(ScanPoint));
   return hash.digest();
 }
 
@@ -154,7 +154,7 @@ void FrameHashes::add(const Frame& f) {
 void FrameHashes::add_imu(const ImuSample& sample) { readings_.push_back(sample); }
 void FrameHashes::add_robot(const RobotSample& sample) { robots_.push_back(sample); }
 
-void FrameHashes::add_lidar(const LidarScan& scan) {
+void FrameHashes::add_lidar(const RangeScan& scan) {
   scans_.at(std::size_t(scan.sensor)).push_back(hash_scan(scan));
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/scene/frame.h"
-#include "render/scene/lidar_scan.h"
+#include "render/scene/range_scan.h"
 #include "render/scene/reading.h"
 #include "render/scene/robot_sample.h"
 
@@ -32,7 +32,7 @@ struct FrameHashes {
   void add(const Frame& frame);
   void add_imu(const ImuSample& sample);
   void add_robot(const RobotSample& sample);
-  void add_lidar(const LidarScan& scan);
+  void add_lidar(const RangeScan& scan);
   void add_reading(const Reading& reading);
   // Without the channels that no frame has.
   FrameHashes compact() const;

@@ -19,7 +19,7 @@ class LidarSensor : public Sensor {
     return end <= last_ns_ + kRounding || (next_ == 0 && stamp <= last_ns_) ? std::optional(stamp) : std::nullopt;
   }
   Sample take() override {
-    LidarScan scan = lidar_->take(next_++);
+    RangeScan scan = lidar_->take(next_++);
     scan.sensor = number_;
     return scan;
   }
@@ -42,7 +42,7 @@ LidarPlace place_of(const LidarScenario& lidar, const Scenario& flown,
 
 }  // namespace
 
-std::vector<std::unique_ptr<Sensor>> make_lidar_sensors(const Scenario& flown, const std::shared_ptr<LidarWorld>& world,
+std::vector<std::unique_ptr<Sensor>> make_lidar_sensors(const Scenario& flown, const std::shared_ptr<RayWorld>& world,
                                                         const Medium& medium, std::uint64_t noise_seed,
                                                         std::int64_t last_ns,
                                                         std::shared_ptr<const MotionPath> path,

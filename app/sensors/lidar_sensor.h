@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/sensors/robot_readings.h"
-#include "render/lidar/lidar_world.h"
 #include "render/media/medium.h"
+#include "render/rays/ray_world.h"
 #include "render/scene/sample.h"
 #include "scripting/scenario/scenario.h"
 
@@ -15,7 +15,7 @@ namespace rubble {
 
 // flown: the scenario with the path that is flown; robots: what carries those that are not on the rig. world: what rays meet.
 // medium: what hangs in the air of the scene. last_ns: no scan begins later. Empty where the mission has no LiDAR.
-std::vector<std::unique_ptr<Sensor>> make_lidar_sensors(const Scenario& flown, const std::shared_ptr<LidarWorld>& world,
+std::vector<std::unique_ptr<Sensor>> make_lidar_sensors(const Scenario& flown, const std::shared_ptr<RayWorld>& world,
                                                         const Medium& medium, std::uint64_t noise_seed,
                                                         std::int64_t last_ns,
                                                         std::shared_ptr<const MotionPath> path,

@@ -9,15 +9,15 @@ namespace {
 
 constexpr double kBostonLatitude = 42.36, kBostonLongitude = -71.06;  // unit: degree
 
-std::vector<SensorSite::Hit> cast(LidarWorld& world, const Vec3& from, const std::vector<Vec3>& directions, double range,
+std::vector<SensorSite::Hit> cast(RayWorld& world, const Vec3& from, const std::vector<Vec3>& directions, double range,
                                   std::int64_t stamp_ns) {
   if (world.moves()) world.span(stamp_ns, stamp_ns);
   std::vector<SensorSite::Hit> hits;
   hits.reserve(directions.size());
-  LidarWorld::Ray rays[LidarWorld::kPacket];
-  LidarWorld::Hit met[LidarWorld::kPacket];
-  for (std::size_t first = 0; first < directions.size(); first += LidarWorld::kPacket) {
-    const std::size_t count = std::min(LidarWorld::kPacket, directions.size() - first);
+  RayWorld::Ray rays[RayWorld::kPacket];
+  RayWorld::Hit met[RayWorld::kPacket];
+  for (std::size_t first = 0; first < directions.size(); first += RayWorld::kPacket) {
+    const std::size_t count = std::min(RayWorld::kPacket, directions.size() - first);
     for (std::size_t i = 0; i < count; ++i) rays[i] = {from, directions[first + i], 0};
     world.cast(rays, count, range, met);
     for (std::size_t i = 0; i < count; ++i) hits.push_back({met[i].distance, met[i].cosine, met[i].reflectance});
@@ -27,7 +27,7 @@ std::vector<SensorSite::Hit> cast(LidarWorld& world, const Vec3& from, const std
 
 }  // namespace
 
-SensorSite make_sensor_site(const Scenario& scenario, const SensorItem& sensor, const MotionPath& path, LidarWorld* world,
+SensorSite make_sensor_site(const Scenario& scenario, const SensorItem& sensor, const MotionPath& path, RayWorld* world,
                             std::function<double(const std::vector<std::string>&, double, double)> forces) {
   SensorSite site;
   const Pose carrier_from_sensor = sensor.carrier_from_sensor();
@@ -57,7 +57,7 @@ bool needs_rays(const std::vector<SensorItem>& sensors) {
 }
 
 ReadingSensor::ReadingSensor(const Scenario& flown, int number, std::uint64_t noise_seed, std::int64_t last_ns,
-                             std::shared_ptr<const MotionPath> path, std::shared_ptr<LidarWorld> world,
+                             std::shared_ptr<const MotionPath> path, std::shared_ptr<RayWorld> world,
                              std::function<double(const std::vector<std::string>&, double, double)> forces)
     : item_(flown.sensors[std::size_t(number)]), number_(number), start_ns_(flown.start_ns), last_ns_(last_ns),
       path_(std::move(path)), world_(std::move(world)),

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/sensors/robot_readings.h"
-#include "render/lidar/lidar_world.h"
+#include "render/rays/ray_world.h"
 #include "render/scene/sample.h"
 #include "scripting/scenario/scenario.h"
 #include "scripting/trajectory/motion_path.h"
@@ -17,7 +17,7 @@ namespace rubble {
 
 // What a sensor asks, of a mission. path: of its carrier; world: null where it casts no rays. All must outlive the site.
 // forces: as SensorSite::contact_force.
-SensorSite make_sensor_site(const Scenario& scenario, const SensorItem& sensor, const MotionPath& path, LidarWorld* world,
+SensorSite make_sensor_site(const Scenario& scenario, const SensorItem& sensor, const MotionPath& path, RayWorld* world,
                             std::function<double(const std::vector<std::string>&, double, double)> forces = {});
 
 // Of the sensor of that number in the scenario; robots: must outlive it.
@@ -30,7 +30,7 @@ bool needs_rays(const std::vector<SensorItem>& sensors);
 class ReadingSensor : public Sensor {
  public:
   ReadingSensor(const Scenario& flown, int number, std::uint64_t noise_seed, std::int64_t last_ns,
-                std::shared_ptr<const MotionPath> path, std::shared_ptr<LidarWorld> world,
+                std::shared_ptr<const MotionPath> path, std::shared_ptr<RayWorld> world,
                 std::function<double(const std::vector<std::string>&, double, double)> forces);
 
   std::optional<std::int64_t> next_stamp() const override;
@@ -41,7 +41,7 @@ class ReadingSensor : public Sensor {
   int number_;
   std::int64_t start_ns_, last_ns_, next_ = 0;
   std::shared_ptr<const MotionPath> path_;
-  std::shared_ptr<LidarWorld> world_;
+  std::shared_ptr<RayWorld> world_;
   SensorSite site_;
   std::unique_ptr<SensorMeter> meter_;
 };

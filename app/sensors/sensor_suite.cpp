@@ -131,7 +131,7 @@ SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const S
     sensors_.push_back(std::make_unique<ImuSensor>(imu, number++, flown, begin.noise_seed,
                                                    robots.end_of(imu.ride, flown.start_ns, last_ns),
                                                    robots.path_of(imu.ride, flight.path)));
-  const auto world = flown.lidars.empty() && !needs_rays(flown.sensors) ? nullptr : std::make_shared<LidarWorld>(scene);
+  const auto world = flown.lidars.empty() && !needs_rays(flown.sensors) ? nullptr : std::make_shared<RayWorld>(scene);
   for (auto& lidar : make_lidar_sensors(flown, world, renderer.medium(), begin.noise_seed, last_ns,
                                         flight.path, robots, threads))
     sensors_.push_back(std::move(lidar));

@@ -50,7 +50,7 @@ class LiveLidar : public LiveSensor {
     return {lidar_.stamp_ns(next_), end, end + Lidar::kSceneStep};
   }
   Sample take() override {
-    LidarScan scan = lidar_.take(next_++);
+    RangeScan scan = lidar_.take(next_++);
     scan.sensor = number_;
     return scan;
   }
@@ -97,7 +97,7 @@ class LiveReading : public LiveSensor {
   int number_;
   std::int64_t start_ns_, next_ = 0;
   std::shared_ptr<const MotionPath> way_;
-  std::shared_ptr<LidarWorld> world_;
+  std::shared_ptr<RayWorld> world_;
   SensorSite site_;
   std::unique_ptr<SensorMeter> meter_;
 };

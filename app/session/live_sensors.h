@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "app/session/pose_history.h"
-#include "render/lidar/lidar_world.h"
 #include "render/media/medium.h"
+#include "render/rays/ray_world.h"
 #include "render/scene/sample.h"
 #include "scripting/scenario/scenario.h"
 
@@ -30,7 +30,7 @@ class LiveSensor {
 struct LiveSensorParts {
   const Scenario& scenario;
   const PoseHistory& history;
-  std::shared_ptr<LidarWorld> world;  // of a scene that shows everything where the history has it; none: units of inertia alone
+  std::shared_ptr<RayWorld> world;  // of a scene that shows everything where the history has it; none: units of inertia alone
   Medium medium;
   int threads = 1;
 };

@@ -108,7 +108,7 @@ void Session::make_sensors() {
   if ((rays && !world_of_rays_) || (!colours.empty() && !colours_))
     scene = build_live_scene(scenario_, mission_.assets, pile_, seen_,
                              [this](int id, std::int64_t stamp_ns) { return history_.pose_of(id, stamp_ns); });
-  if (rays && !world_of_rays_) world_of_rays_ = std::make_shared<LidarWorld>(scene);
+  if (rays && !world_of_rays_) world_of_rays_ = std::make_shared<RayWorld>(scene);
   const LiveSensorParts parts{scenario_, history_, world_of_rays_, Medium(scenario_.air, scenario_.seed), context_.threads()};
   for (const std::size_t i : imus) sensors_.push_back(make_live_imu(parts, i));
   for (const std::size_t i : lidars) sensors_.push_back(make_live_lidar(parts, i));

@@ -27,7 +27,7 @@ namespace rubble {
 
 class LiveColours;
 class LiveSensor;
-class LidarWorld;
+class RayWorld;
 class RobotSenses;
 class ScriptControl;
 
@@ -101,7 +101,7 @@ class Session {
   std::vector<RobotLog> logs_;
   std::unique_ptr<RobotSenses> senses_;
   std::unique_ptr<ScriptControl> script_;
-  std::shared_ptr<LidarWorld> world_of_rays_;
+  std::shared_ptr<RayWorld> world_of_rays_;
   std::unique_ptr<LiveColours> colours_;
   std::vector<std::unique_ptr<LiveSensor>> sensors_;
   std::vector<Sample> measured_;  // for observe()

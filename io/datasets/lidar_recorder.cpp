@@ -7,13 +7,13 @@
 namespace rubble {
 namespace {
 
-std::string make_pcd(const std::vector<LidarPoint>& points) {
+std::string make_pcd(const std::vector<ScanPoint>& points) {
   const std::string count = std::to_string(points.size());
   std::string bytes = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
                       "FIELDS x y z intensity ring time\nSIZE 4 4 4 4 2 4\nTYPE F F F F U F\n"
                       "COUNT 1 1 1 1 1 1\nWIDTH " + count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
                       count + "\nDATA binary\n";
-  for (const LidarPoint& p : points) {
+  for (const ScanPoint& p : points) {
     for (const float value : {p.x, p.y, p.z, p.intensity}) put(bytes, value);
     put(bytes, p.ring);
     put(bytes, p.time);
@@ -21,21 +21,21 @@ std::string make_pcd(const std::vector<LidarPoint>& points) {
   return bytes;
 }
 
-std::string make_kitti(const std::vector<LidarPoint>& points) {
+std::string make_kitti(const std::vector<ScanPoint>& points) {
   std::string bytes;
-  for (const LidarPoint& p : points)
+  for (const ScanPoint& p : points)
     for (const float value : {p.x, p.y, p.z, p.intensity / 100}) put(bytes, value);
   return bytes;
 }
 
 // last_ns: of the last line; the lists of neighbouring scans overlap.
-std::string motion_lines(const LidarScan& scan, std::int64_t& last_ns) {
+std::string motion_lines(const RangeScan& scan, std::int64_t& last_ns) {
   std::string lines;
-  for (std::size_t i = 0; i < scan.world_from_lidar.size(); ++i) {
-    const std::int64_t stamp_ns = scan.stamp_ns + std::int64_t(i) * LidarScan::kMotionStep;
+  for (std::size_t i = 0; i < scan.world_from_sensor.size(); ++i) {
+    const std::int64_t stamp_ns = scan.stamp_ns + std::int64_t(i) * RangeScan::kMotionStep;
     if (stamp_ns <= last_ns) continue;
     last_ns = stamp_ns;
-    const auto& [q, t] = scan.world_from_lidar[i];
+    const auto& [q, t] = scan.world_from_sensor[i];
     lines += seconds_text(stamp_ns);
     for (const double value : {t.x, t.y, t.z, q.x, q.y, q.z, q.w}) lines += " " + fixed_text(value, 9);
     lines += "\n";
@@ -72,7 +72,7 @@ class LidarRecorder : public Recorder {
   }
 
   void write(const Frame&) override {}
-  void write_lidar(const LidarScan& scan) override {
+  void write_lidar(const RangeScan& scan) override {
     Lists& lists = lists_.at(std::size_t(scan.sensor));
     const std::string number = index_text(lists.scans);
     if (lists.scans++ == 0) lists.first_ns = scan.stamp_ns;
@@ -81,7 +81,7 @@ class LidarRecorder : public Recorder {
                 [points = scan.points, pcd] { return pcd ? make_pcd(points) : make_kitti(points); });
     lists.stamps += pcd ? seconds_text(scan.stamp_ns) + " " + number + ".pcd\n"
                         : seconds_text(scan.stamp_ns - lists.first_ns) + "\n";
-    lists.poses += pcd ? motion_lines(scan, lists.motion_ns) : kitti_pose(scan.world_from_lidar.front());
+    lists.poses += pcd ? motion_lines(scan, lists.motion_ns) : kitti_pose(scan.world_from_sensor.front());
   }
 
   void finish() override {

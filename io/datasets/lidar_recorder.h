@@ -5,7 +5,7 @@
 //   pcd/NAME/motion.txt    TUM: where the sensor truly was, every millisecond of every scan
 //   kitti/NAME/velodyne/000000.bin   x y z and reflectance (intensity / 100), float32
 //   kitti/NAME/times.txt   seconds since the first scan; poses.txt: the true pose at each stamp, the upper
-//                          three rows of world_from_lidar
+//                          three rows of world_from_sensor
 #pragma once
 
 #include <memory>

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "render/scene/lidar_scan.h"
+#include "render/scene/range_scan.h"
 
 namespace rubble {
 
@@ -20,7 +20,7 @@ class ScanPlan {
     std::size_t scans = 0;     // until then, with that one
   };
 
-  void add(const LidarScan& scan);
+  void add(const RangeScan& scan);
   Moment now() const { return {last_echoes_, way_.size()}; }
 
   // To be called before draw(), with all moments that will be drawn.

@@ -64,7 +64,7 @@ class RawlogRecorder : public Recorder {
     write_frames(false);
   }
 
-  void write_lidar(const LidarScan& scan) override {
+  void write_lidar(const RangeScan& scan) override {
     const LidarRecord& lidar = recording_.lidars.at(std::size_t(scan.sensor));
     guard([&] {
       write_lidar_observation(scan, lidar, [&](const auto& observation) { emit(scan.stamp_ns, observation); });

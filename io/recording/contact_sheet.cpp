@@ -110,7 +110,7 @@ class ContactSheetRecorder : public Recorder {
     if (has_lidar()) tiles_.back().scans = plan_.now();
   }
 
-  void write_lidar(const LidarScan& scan) override {
+  void write_lidar(const RangeScan& scan) override {
     if (has_lidar() && scan.sensor == 0) plan_.add(scan);
   }
 

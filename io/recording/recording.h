@@ -81,7 +81,7 @@ struct ImuRecord {
   ImuModel model;                         // rate and noise
 };
 
-// A LiDAR. LidarScan::sensor is its number.
+// A LiDAR. RangeScan::sensor is its number.
 struct LidarRecord {
   std::string name = "lidar";      // of labels and folders
   std::string topic = "/points";   // ROS: PointCloud2, of a planar pattern LaserScan

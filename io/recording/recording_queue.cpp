@@ -38,7 +38,7 @@ struct RecordingQueue::Shared {
   // Frames and scans are what takes memory.
   std::size_t count_frames() const {
     return std::size_t(std::count_if(samples.begin(), samples.end(), [](const auto& sample) {
-      return std::holds_alternative<Frame>(*sample) || std::holds_alternative<LidarScan>(*sample);
+      return std::holds_alternative<Frame>(*sample) || std::holds_alternative<RangeScan>(*sample);
     }));
   }
   bool drained() const {
@@ -166,8 +166,8 @@ const char* find_not_finite(const RobotSample& s) {
   return finite ? nullptr : "motion";
 }
 
-const char* find_not_finite(const LidarScan& scan) {
-  for (const LidarPoint& p : scan.points)
+const char* find_not_finite(const RangeScan& scan) {
+  for (const ScanPoint& p : scan.points)
     if (!std::isfinite(p.x + p.y + p.z) || !std::isfinite(p.intensity)) return "echo";
   return nullptr;
 }
@@ -180,7 +180,7 @@ std::string describe(const ImuSample& sample) {
   return "the reading at " + std::to_string(sample.stamp_ns) + " ns";
 }
 std::string describe(const Reading& reading) { return "the reading at " + std::to_string(reading.stamp_ns) + " ns"; }
-std::string describe(const LidarScan& scan) { return "scan " + std::to_string(scan.index); }
+std::string describe(const RangeScan& scan) { return "scan " + std::to_string(scan.index); }
 
 std::string describe(const RobotSample& sample) {
   return "what a robot senses at " + std::to_string(sample.stamp_ns) + " ns";

@@ -89,7 +89,7 @@ class RosRecorder : public Recorder {
       early_.push_back(sample);
   }
 
-  void write_lidar(const LidarScan& scan) override {
+  void write_lidar(const RangeScan& scan) override {
     tick(scan.stamp_ns);
     const auto i = std::size_t(scan.sensor);
     const LidarRecord& lidar = recording_.lidars.at(i);

@@ -7,13 +7,13 @@
 #include <variant>
 
 #include "render/scene/frame.h"
-#include "render/scene/lidar_scan.h"
+#include "render/scene/range_scan.h"
 #include "render/scene/reading.h"
 #include "render/scene/robot_sample.h"
 
 namespace rubble {
 
-using Sample = std::variant<Frame, ImuSample, LidarScan, RobotSample, Reading>;
+using Sample = std::variant<Frame, ImuSample, RangeScan, RobotSample, Reading>;
 
 inline std::int64_t stamp_of(const Sample& sample) {
   return std::visit([](const auto& s) { return s.stamp_ns; }, sample);

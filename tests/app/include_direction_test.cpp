@@ -114,7 +114,7 @@ const Allowed kRender = stack(
     {"render/scene/", "render/streams/", "render/gl/", "render/camera/", "render/materials/", "render/sky/", "render/geometry/",
      "render/lighting/", "render/shading/", "render/media/", "render/raster/", "render/passes/", "render/colour/",
      "render/transport/", "render/reference/", "render/view/", "render/renderer.", "render/optics/", "render/sensors/",
-     "render/lidar/"},
+     "render/rays/", "render/lidar/"},
     {"kernel/base/"});
 
 const Allowed kIo = stack(

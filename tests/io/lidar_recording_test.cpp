@@ -35,8 +35,8 @@ Recording three_lidars() {
   return recording;
 }
 
-LidarScan two_echoes(int sensor) {
-  LidarScan scan;
+RangeScan two_echoes(int sensor) {
+  RangeScan scan;
   scan.stamp_ns = 1'500'000'000, scan.sensor = sensor;
   const auto ring = std::uint16_t(sensor == 2 ? 0 : 1);
   scan.points = {{3, 4, 0, 50, 0.03f, ring, 3}, {6, 8, 0, 20, 0.03f, ring, 3}};

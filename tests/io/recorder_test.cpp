@@ -230,11 +230,11 @@ TEST(ContactSheet, ShowsTheScansOfALidarFromAbove) {
   options.lidar = "scan";
   const auto recorder = make_contact_sheet_recorder(folder / "preview.png", options);
   const auto scan_at = [](double x, int index, int sensor) {
-    LidarScan scan;
+    RangeScan scan;
     scan.stamp_ns = 1000 + index;
     scan.sensor = sensor, scan.index = index;
-    scan.world_from_lidar = {Pose{Quat{}, {x, 0, 0.3}}};
-    LidarPoint post;
+    scan.world_from_sensor = {Pose{Quat{}, {x, 0, 0.3}}};
+    ScanPoint post;
     post.y = sensor == 0 ? 1.5F : -1.5F;  // only those of the first LiDAR are shown
     scan.points = {post};
     return scan;

@@ -61,7 +61,7 @@ TEST(RobotMessages, AScanLiesInItsPlane) {
   LidarSpec spec;
   spec.pattern = LidarPattern::planar;
   spec.columns = 4, spec.first_azimuth_deg = -90, spec.span_deg = 360, spec.min_range = 0.1, spec.max_range = 30;
-  LidarPoint left;
+  ScanPoint left;
   left.y = 2, left.column = 2;
   const HeardCloud scan = read_laser_scan(kRos1, ros::laser_scan(kRos1, {}, spec, {left}));
   ASSERT_EQ(scan.points.size(), 1u) << "rays without an echo are infinite";

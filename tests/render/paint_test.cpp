@@ -232,10 +232,10 @@ TEST(Paint, IsKnownToTheLidar) {
     lidar.noise = false;
     lidar.range_step = 0, lidar.divergence_mrad = 0;
     const LidarPlace place{[](std::int64_t) { return Pose(); }, 1'000'000'000};
-    const LidarScan scan = Lidar(lidar.spec(), std::make_shared<LidarWorld>(scene), place, Medium(scene.air, 1), 3, 1).take(0);
+    const RangeScan scan = Lidar(lidar.spec(), std::make_shared<RayWorld>(scene), place, Medium(scene.air, 1), 3, 1).take(0);
     EXPECT_GT(scan.points.size(), 100u);
     double sum = 0;
-    for (const LidarPoint& p : scan.points) sum += double(p.intensity);
+    for (const ScanPoint& p : scan.points) sum += double(p.intensity);
     return sum / double(scan.points.size());
   };
   EXPECT_NEAR(intensity(0.8f) / intensity(0.2f), 4, 0.05);

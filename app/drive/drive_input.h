@@ -25,7 +25,7 @@ enum class DriveAction {
   hulls,      // shown or not
   contacts,   // likewise, with their forces
   frames,     // likewise, of the robots' links
-  scans,      // likewise, what LiDARs measured last
+  scans,      // likewise, what was scanned last
   help,
   picture,    // save what the window shows
   quit,

@@ -62,7 +62,7 @@ class DriveSession {
   int slowness_ = 1;       // of time
   OverlayChoice choice_;
   std::unique_ptr<Overlay> overlay_;  // of this world
-  RangeScan scan_;                    // the last
+  std::shared_ptr<const RangeScan> scan_;  // the last
   Complaints complaints_{[this](const std::string& line) { say(line); }};
   std::string notice_;
   Clock::time_point notice_until_;

@@ -1,4 +1,4 @@
-// Lines over what a drive shows: collision hulls, contacts with their forces, frames of links, points of LiDARs.
+// Lines over what a drive shows: collision hulls, contacts with their forces, frames of links, echoes of scans.
 #pragma once
 
 #include <array>

@@ -6,13 +6,12 @@
 
 #include "app/navigate/collision_counter.h"
 #include "app/navigate/pilot.h"
+#include "app/navigate/range_scanner.h"
 #include "app/pipeline/stages.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/robot/bundled.h"
 #include "kernel/robot/gaits.h"
 #include "kernel/robot/robot_run.h"
-#include "render/lidar/lidar.h"
-#include "scripting/scenario/lidar_scenario.h"
 
 namespace rubble {
 namespace {
@@ -43,13 +42,6 @@ class PoseHistory {
   std::vector<Pose> poses_;
 };
 
-LidarSpec make_lidar_spec(const NavigationRules& rules) {
-  LidarScenario lidar;
-  lidar.model = LidarModel::os0, lidar.channels = 32, lidar.columns = 512;
-  lidar.rate_hz = 1 / rules.period;
-  return lidar.spec();
-}
-
 PilotOptions make_pilot_options(const NavigationWorld& world, std::uint64_t seed, const std::string& cache_folder) {
   PilotOptions options;
   options.rules = world.rules(), options.bounds = world.bounds(), options.shape = kShape;
@@ -79,7 +71,8 @@ class Drive {
  public:
   Drive(const NavigationWorld& world, std::uint64_t seed, const std::string& cache_folder)
       : world_(world), rules_(world.rules()), model_(make_robot()), history_(make_run_options(world).step),
-        lidar_(make_lidar(seed)), pilot_(make_pilot_options(world, seed, cache_folder)),
+        // Scan k ends when period k begins; the first is of the robot before it starts.
+        scanner_(make_range_scanner(world, seed, [this](double time) { return history_.at(time - rules_.period); })), pilot_(make_pilot_options(world, seed, cache_folder)),
         collisions_(int(world.pile().pieces.size()), rules_.step_height,
                     [&world](const Vec3& place) { return world.is_solid(place); }) {
     score_.passes = world.passes(), score_.shortest = world.shortest();
@@ -111,20 +104,8 @@ class Drive {
     return make_crawler(options);
   }
 
-  // Its scan k ends when period k begins; the first is of the robot before it starts.
-  Lidar make_lidar(std::uint64_t seed) {
-    const Scenario& scenario = world_.mission().scenario;
-    const std::int64_t start = scenario.start_ns;
-    const Pose base_from_lidar{{1, 0, 0, 0}, {0, 0, rules_.lidar_height}};
-    const auto place = [this, base_from_lidar, start](std::int64_t stamp) {
-      return history_.at(double(stamp - start) * 1e-9 - rules_.period) * base_from_lidar;
-    };
-    return {make_lidar_spec(rules_), world_.ray_world(), {place, start}, Medium(scenario.air, scenario.seed), seed,
-            world_.threads()};
-  }
-
   RobotCommand control(const RobotSense& sense) {
-    const RangeScan scan = lidar_.take(score_.periods++);
+    const RangeScan scan = scanner_.take(score_.periods++);
     const auto before = std::chrono::steady_clock::now();
     map(scan);
     const Vec3 base = sense.state.links.front().world_from_link.translation;
@@ -143,11 +124,7 @@ class Drive {
   double time() const { return (score_.periods - 1) * rules_.period; }
 
   void map(const RangeScan& scan) {
-    const int last = int(scan.world_from_sensor.size()) - 1;
-    for (const ScanPoint& p : scan.points) {
-      const int sample = int(double(p.time) * 1e9 / double(RangeScan::kMotionStep) + 0.5);
-      pilot_.see(scan.world_from_sensor[std::size_t(std::min(sample, last))] * Vec3{p.x, p.y, p.z});
-    }
+    for (const ScanPoint& p : scan.points) pilot_.see(scan.place(p));
   }
 
   PilotInput make_input(const RobotSense& sense) const {
@@ -176,7 +153,7 @@ class Drive {
   NavigationRules rules_;
   RobotModel model_;
   PoseHistory history_;
-  Lidar lidar_;
+  RangeScanner scanner_;
   Pilot pilot_;
   CollisionCounter collisions_;
   NavigationScore score_;

@@ -1,4 +1,4 @@
-// What a LiDAR has measured, seen from above: a tile of a contact sheet.
+// What a sensor that scans has measured, seen from above: a tile of a contact sheet.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -10,7 +10,7 @@
 
 namespace rubble {
 
-// Takes the scans of one LiDAR in their order, remembers moments, and draws these when all scans have come: all plans of a
+// Takes the scans of one sensor in their order, remembers moments, and draws these when all scans have come: all plans of a
 // flight then show the same part of the world in the same colours.
 class ScanPlan {
  public:

@@ -173,11 +173,11 @@ std::string point_cloud(Version version, const Header& header, const std::vector
   return out.take();
 }
 
-std::string laser_scan(Version version, const Header& header, const LidarSpec& spec,
-                       const std::vector<ScanPoint>& points) {
+std::string laser_scan(Version version, const Header& header, const RangeScan& scan) {
+  const auto& spec = *scan.spec;
   const auto columns = static_cast<std::size_t>(spec.columns);
   std::vector<float> ranges(columns, std::numeric_limits<float>::infinity()), intensities(columns, 0);
-  for (auto p = points.rbegin(); p != points.rend(); ++p) {
+  for (auto p = scan.points.rbegin(); p != scan.points.rend(); ++p) {
     ranges.at(p->column) = std::sqrt(p->x * p->x + p->y * p->y + p->z * p->z);
     intensities[p->column] = p->intensity;
   }

@@ -12,7 +12,6 @@
 #include "io/ros/ros_wire.h"
 #include "kernel/base/math.h"
 #include "render/scene/frame.h"
-#include "render/scene/lidar_spec.h"
 #include "render/scene/range_scan.h"
 #include "render/scene/robot_sample.h"
 
@@ -96,7 +95,6 @@ std::string event_array(Version version, const Header& header, const Intrinsics&
 std::string point_cloud(Version version, const Header& header, const std::vector<ScanPoint>& points);
 // Of a planar pattern: a range for every column, inf where there is no echo (REP 117); of two echoes of a
 // ray the first of the scan.
-std::string laser_scan(Version version, const Header& header, const LidarSpec& spec,
-                       const std::vector<ScanPoint>& points);
+std::string laser_scan(Version version, const Header& header, const RangeScan& scan);
 
 }  // namespace rubble::ros

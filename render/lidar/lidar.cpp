@@ -29,12 +29,12 @@ struct Lidar::Slice {
 
 Lidar::Lidar(const LidarSpec& spec, std::shared_ptr<RayWorld> world, LidarPlace place,
              const Medium& medium, std::uint64_t seed, int threads)
-    : spec_(spec),
+    : spec_(std::make_shared<const LidarSpec>(spec)),
       world_(std::move(world)),
       place_(std::move(place)),
       medium_(medium),
       seed_(seed),
-      pattern_(spec_),
+      pattern_(*spec_),
       pool_(threads) {}
 
 std::vector<Pose> Lidar::poses_of(std::int64_t stamp_ns, std::int64_t duration_ns) {
@@ -50,7 +50,7 @@ std::vector<Pose> Lidar::poses_of(std::int64_t stamp_ns, std::int64_t duration_n
 // Two slots of `found` a ray.
 void Lidar::measure(const Slice& slice, std::size_t begin, std::size_t end, std::vector<ScanPoint>& found,
                     std::vector<std::uint8_t>& counts) const {
-  const Beam beam(spec_, *world_);
+  const Beam beam(*spec_, *world_);
   for (std::size_t i = begin; i < end; ++i) {
     const PatternRay& ray = slice.rays[i];
     const auto knot = std::size_t(ray.offset_ns / kKnot);
@@ -71,6 +71,7 @@ void Lidar::measure(const Slice& slice, std::size_t begin, std::size_t end, std:
 
 RangeScan Lidar::take(int scan) {
   RangeScan out;
+  out.spec = spec_;
   out.index = scan;
   out.stamp_ns = stamp_ns(scan);
   const std::vector<PatternRay>& rays = pattern_.rays(scan);

@@ -32,7 +32,7 @@ class Lidar {
   Lidar(const LidarSpec& spec, std::shared_ptr<RayWorld> world, LidarPlace place, const Medium& medium,
         std::uint64_t seed, int threads);
 
-  const LidarSpec& spec() const { return spec_; }
+  const LidarSpec& spec() const { return *spec_; }
   std::int64_t stamp_ns(int scan) const { return place_.start_ns + pattern_.begin_ns(scan); }
   RangeScan take(int scan);
 
@@ -42,7 +42,7 @@ class Lidar {
   void measure(const Slice& slice, std::size_t begin, std::size_t end, std::vector<ScanPoint>& found,
                std::vector<std::uint8_t>& counts) const;
 
-  LidarSpec spec_;
+  std::shared_ptr<const LidarSpec> spec_;
   std::shared_ptr<RayWorld> world_;
   LidarPlace place_;
   Medium medium_;

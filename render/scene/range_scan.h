@@ -1,10 +1,13 @@
 // A scan of ranges: echoes, each with the time of its ray.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "kernel/base/math.h"
+#include "render/scene/lidar_spec.h"
 
 namespace rubble {
 
@@ -20,14 +23,20 @@ struct ScanPoint {
 static_assert(sizeof(ScanPoint) == 24, "points are hashed and written as they are in memory");
 
 struct RangeScan {
+  std::shared_ptr<const LidarSpec> spec;  // where the rays of its sensor go; never null
   std::int64_t stamp_ns = 0;  // of its first ray
-  int sensor = 0;             // number among the sensors of its sort in the recording
   int index = 0;              // of the scans of its sensor, 0-based
   // True poses of the sensor: at the stamp, and after every kMotionStep until after the last ray.
   std::vector<Pose> world_from_sensor;
   static constexpr std::int64_t kMotionStep = 1'000'000;  // unit: ns
   // In the order of the rays. A ray without an echo has no point; a ray with two echoes has the stronger one first.
   std::vector<ScanPoint> points;
+
+  // Of an echo in the world, by the true pose nearest to its time.
+  Vec3 place(const ScanPoint& p) const {
+    const auto step = std::size_t(double(p.time) * 1e9 / double(kMotionStep) + 0.5);
+    return world_from_sensor[std::min(step, world_from_sensor.size() - 1)] * Vec3{p.x, p.y, p.z};
+  }
 };
 
 }  // namespace rubble

@@ -131,7 +131,7 @@ const Allowed kVoidFiles = stack({"io/base/", "io/image/", "io/voids/", "io/ompl
 // A kind of sensor is one file: with the messages that its readings are.
 const Allowed kSensors{{"scripting/sensors/",
                         {"kernel/base/", "scripting/values/", "scripting/trajectory/", "scripting/schema/", "scripting/sensors/",
-                         "io/recording/reading_format.h", "io/ros/ros_messages.h"}}};
+                         "io/recording/reading_format.h", "io/ros/ros_messages.h", "render/lidar/lidar.h", "render/scene/lidar_spec.h"}}};
 
 const Allowed kScripting = stack(
     {"scripting/values/", "scripting/trajectory/", "scripting/schema/", "scripting/files/", "scripting/sandbox/",

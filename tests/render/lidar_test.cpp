@@ -11,7 +11,7 @@
 #include "kernel/base/portable_math.h"
 #include "render/materials/surface_appearance.h"
 #include "scripting/mission.h"
-#include "scripting/scenario/lidar_scenario.h"
+#include "scripting/sensors/lidar.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
@@ -21,12 +21,13 @@ constexpr double kPi = portable::kPi;
 
 // Lines of light without noise, limits or rounding.
 LidarSpec ideal(LidarModel model = LidarModel::vlp16) {
-  LidarScenario lidar;
+  LidarFigures lidar;
   lidar.model = model;
-  lidar.noise = false;
   lidar.range_step = 0, lidar.divergence_mrad = 0;
   lidar.min_range = 0.01, lidar.max_range = 100, lidar.range_at_10_percent = 1000;
-  return lidar.spec();
+  LidarSpec spec = lidar.spec();
+  spec.noise = false;
+  return spec;
 }
 
 Scene place_boxes(const std::vector<std::pair<Vec3, Pose>>& boxes) {
@@ -275,7 +276,7 @@ std::string bytes_of(const RangeScan& scan) {
 TEST(RangeScan, IsTheSameForAnyThreadsAndOrderAndChangesWithTheSeed) {
   Scene scene = make_heap(60, 5);
   scene.air.fog_density = 0.1, scene.air.dust.period = 1;
-  LidarScenario lidar;
+  LidarFigures lidar;
   lidar.returns = LidarReturns::dual;
   const LidarSpec spec = lidar.spec();
   const LidarPlace place{[](std::int64_t stamp_ns) {
@@ -314,10 +315,14 @@ TEST(LidarPattern, OfAnOustersMetadataHasItsOwnBeams) {
       R"({"prod_line":"OS-1","lidar_mode":"512x10","beam_altitude_angles":[14,1.5,-17.25],"beam_azimuth_angles":[3.5,-1.25,0.5],
           "lidar_origin_to_beam_origin_mm":15.8,"lidar_to_sensor_transform":[-1,0,0,0,0,-1,0,0,0,0,1,36.2,0,0,0,1]})";
   const Mission mission = load_mission_text(
-      "return rubble.mission { lidars = { top = rubble.read_calibration('os.json').lidar } }", "m.lua", options);
-  LidarScenario lidar = mission.scenario.lidars.at(0);
-  lidar.noise = false, lidar.range_step = 0, lidar.divergence_mrad = 0, lidar.min_range = 0.01, lidar.range_at_10_percent = 1000;
-  const RangeScan scan = scan_of(lidar.spec(), place_boxes({{kRoom, {}}}), standing());
+      "local top = rubble.read_calibration('os.json').lidar\n"
+      "top.noise, top.range_step, top.divergence_mrad, top.min_range, top.range_at_10_percent = false, 0, 0, 0.01, 1000\n"
+      "return rubble.mission { lidars = { top = top } }", "m.lua", options);
+  SensorSite site;
+  site.world_from_sensor = [](double) { return Pose(); };
+  site.rays = std::make_shared<RayWorld>(place_boxes({{kRoom, {}}}));
+  site.air = std::make_shared<const Medium>(AirSpec(), 1);
+  const RangeScan scan = *mission.scenario.sensors.at(0).start(site, 1)->scan(0);
   ASSERT_EQ(scan.points.size(), 3u * 512);
   for (const ScanPoint& p : scan.points) {
     const std::size_t row = 2 - p.ring;
@@ -326,7 +331,7 @@ TEST(LidarPattern, OfAnOustersMetadataHasItsOwnBeams) {
     const Vec3 origin(-radius * std::cos(encoder), -radius * std::sin(encoder), height);
     ASSERT_LT(norm(origin + direction * wall_distance(origin, direction, kRoom) - place_of(p)), 1e-5) << p.ring << " " << p.column;
   }
-  EXPECT_FALSE(lidar.spec().regular);
+  EXPECT_FALSE(scan.spec->regular);
 }
 
 TEST(LidarPattern, OfBeamsThatCannotBeIsRefused) {

@@ -1,4 +1,4 @@
-// Scans of LiDARs as files: a folder for each LiDAR, a file for each scan.
+// Scans of ranges as files: a folder for each sensor that scans, a file for each scan.
 //
 //   pcd/NAME/000000.pcd    binary PCD 0.7 (PCL): x y z intensity, ring (u16), time (f32, s since the stamp)
 //   pcd/NAME/stamps.txt    a line a scan: its stamp, the file

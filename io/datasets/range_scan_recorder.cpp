@@ -1,4 +1,6 @@
-#include "io/datasets/lidar_recorder.h"
+#include "io/datasets/range_scan_recorder.h"
+
+#include <map>
 
 #include "io/base/folder_writer.h"
 #include "io/base/little_endian.h"
@@ -57,23 +59,27 @@ enum class Format { pcd, kitti };
 
 std::vector<std::string> folders_of(Format format, const Recording& recording) {
   std::vector<std::string> folders;
-  for (const LidarRecord& lidar : recording.lidars) {
-    folders.push_back(lidar.name);
-    if (format == Format::kitti) folders.push_back(lidar.name + "/velodyne");
+  for (const SensorRecord& sensor : recording.sensors) {
+    if (!sensor.scans()) continue;
+    folders.push_back(sensor.name);
+    if (format == Format::kitti) folders.push_back(sensor.name + "/velodyne");
   }
   return folders;
 }
 
-class LidarRecorder : public Recorder {
+class RangeScanRecorder : public Recorder {
  public:
-  LidarRecorder(const std::string& path, Format format, const Recording& recording, int threads)
+  RangeScanRecorder(const std::string& path, Format format, const Recording& recording, int threads)
       : format_(format), folder_(path, folders_of(format, recording), threads) {
-    for (const LidarRecord& lidar : recording.lidars) lists_.push_back({lidar.name});
+    for (std::size_t i = 0; i < recording.sensors.size(); ++i)
+      if (recording.sensors[i].scans()) lists_[int(i)].name = recording.sensors[i].name;
   }
 
   void write(const Frame&) override {}
-  void write_lidar(const RangeScan& scan) override {
-    Lists& lists = lists_.at(std::size_t(scan.sensor));
+  void write_reading(const Reading& reading) override {
+    if (!reading.scan) return;
+    const RangeScan& scan = *reading.scan;
+    Lists& lists = lists_.at(reading.sensor);
     const std::string number = index_text(lists.scans);
     if (lists.scans++ == 0) lists.first_ns = scan.stamp_ns;
     const bool pcd = format_ == Format::pcd;
@@ -85,7 +91,7 @@ class LidarRecorder : public Recorder {
   }
 
   void finish() override {
-    for (const Lists& lists : lists_) {
+    for (const auto& [sensor, lists] : lists_) {
       const bool pcd = format_ == Format::pcd;
       folder_.write(lists.name + (pcd ? "/stamps.txt" : "/times.txt"), lists.stamps);
       folder_.write(lists.name + (pcd ? "/motion.txt" : "/poses.txt"), lists.poses);
@@ -94,7 +100,7 @@ class LidarRecorder : public Recorder {
   }
 
  private:
-  struct Lists {  // of one LiDAR
+  struct Lists {  // of one sensor
     std::string name;
     int scans = 0;
     std::int64_t first_ns = 0, motion_ns = -1;
@@ -103,18 +109,18 @@ class LidarRecorder : public Recorder {
 
   Format format_;
   FolderWriter folder_;
-  std::vector<Lists> lists_;
+  std::map<int, Lists> lists_;  // by sensor
 };
 
 }  // namespace
 
 std::unique_ptr<Recorder> make_pcd_recorder(const std::string& path, const Recording& recording, int threads) {
-  return std::make_unique<LidarRecorder>(path, Format::pcd, recording, threads);
+  return std::make_unique<RangeScanRecorder>(path, Format::pcd, recording, threads);
 }
 
 std::unique_ptr<Recorder> make_kitti_recorder(const std::string& path, const Recording& recording,
                                               int threads) {
-  return std::make_unique<LidarRecorder>(path, Format::kitti, recording, threads);
+  return std::make_unique<RangeScanRecorder>(path, Format::kitti, recording, threads);
 }
 
 }  // namespace rubble

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/world/world_robots.h"
 #include "render/camera/lens.h"
 
 namespace rubble {
@@ -61,16 +62,16 @@ void Overlay::add_hulls(const PileState& pile, const World* world, const Vec3& e
 }
 
 void Overlay::add_contacts(const World& world, std::vector<OverlayLine>& lines) {
-  for (int robot = 0; robot < world.robot_count(); ++robot)
-    for (const RobotContact& contact : world.robot_contacts(robot))
+  for (int robot = 0; robot < world.robots().count(); ++robot)
+    for (const RobotContact& contact : world.robots().contacts(robot))
       lines.push_back({contact.point,
                        contact.point + contact.normal * std::max(kLeastForceLength, kForceLength * contact.force),
                        kContactColour, true});
 }
 
 void Overlay::add_frames(const World& world, std::vector<OverlayLine>& lines) {
-  for (int robot = 0; robot < world.robot_count(); ++robot)
-    for (const RobotState::Link& link : world.robot_state(robot).links)
+  for (int robot = 0; robot < world.robots().count(); ++robot)
+    for (const RobotState::Link& link : world.robots().state(robot).links)
       for (int axis = 0; axis < 3; ++axis) {
         Vec3 along;
         along[axis] = kAxis;

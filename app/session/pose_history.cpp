@@ -6,6 +6,7 @@
 #include "app/robots/felt_links.h"
 #include "app/scene/moving_scene.h"
 #include "kernel/base/error.h"
+#include "kernel/world/world_robots.h"
 
 namespace rubble {
 namespace {
@@ -48,7 +49,7 @@ void PoseHistory::add(const Carrier& carrier, const Pose& link_from_carrier, con
 
 Pose PoseHistory::place(const Mount& mount) const {
   const World& world = run_->world();
-  return world.piece(world.robot_piece(int(mount.robot)) + int(mount.link)).world_from_body * mount.link_from_rider;
+  return world.piece(world.robots().first_piece(int(mount.robot)) + int(mount.link)).world_from_body * mount.link_from_rider;
 }
 
 Pose PoseHistory::world_from_rig() const { return place(mounts_.at(std::size_t(rig_))); }

@@ -9,6 +9,7 @@
 #include "app/control/script_control.h"
 #include "app/sensors/camera_sensor.h"
 #include "app/session/live_colours.h"
+#include "kernel/world/world_robots.h"
 
 namespace rubble {
 namespace {
@@ -80,7 +81,7 @@ void Session::start() {
                 if (options_.observed || options_.recorded) log.note(sense);
                 return control(sense);
               });
-    seen_.first_piece.push_back(run_->world().robot_piece(int(i)));
+    seen_.first_piece.push_back(run_->world().robots().first_piece(int(i)));
   }
   run_->begin();
   history_.restart(*run_);
@@ -158,7 +159,7 @@ DrivenRobots Session::finish() {
   driven.readings = history_.ways();
   const World& world = run_->world();
   for (std::size_t i = 0; i < robots_.size(); ++i) {
-    const RobotSense last{world.time(), world.robot_state(int(i)), world.robot_contacts(int(i))};
+    const RobotSense last{world.time(), world.robots().state(int(i)), world.robots().contacts(int(i))};
     if (!last.state.lost) logs_[i].note(last);
     driven.readings.samples.push_back(logs_[i].samples());
   }

@@ -6,6 +6,7 @@
 #include "kernel/base/portable_math.h"
 #include "kernel/structure/building.h"
 #include "kernel/structure/standing.h"
+#include "kernel/world/world_structures.h"
 
 namespace rubble {
 namespace {
@@ -86,11 +87,11 @@ BuildingState BuildingCollapse::state(const World& world) const {
   BuildingState state;
   state.first = collapse_->first_piece(), state.count = collapse_->piece_count();
   for (int i = state.first; i < state.first + state.count; ++i) {
-    const std::vector<int> bound = world.bound_with(i);
+    const std::vector<int> bound = world.structures().bound_with(i);
     if (bound.size() < 2 || bound.front() != i || world.piece(i).status == PieceStatus::lost) continue;
     state.bodies.emplace_back(bound.begin(), bound.end());
   }
-  state.ties = world.ties();
+  state.ties = world.structures().ties();
   return state;
 }
 

@@ -170,16 +170,13 @@ class MissionSession {
     out["linear_acceleration"] = from_vector(s.linear_acceleration);
     return out;
   }
-  py::dict describe(LidarScan& s) const {
-    py::dict out = named("lidar", scenario().lidars[std::size_t(s.sensor)].name);
-    const auto count = py::ssize_t(s.points.size());
-    out["points"] = take_vector(std::move(s.points), {count});
-    out["pose"] = from_pose(s.world_from_lidar.front());
-    return out;
-  }
   py::dict describe(const Reading& s) const {
     const SensorItem& sensor = scenario().sensors[std::size_t(s.sensor)];
-    py::dict out = named("reading", sensor.name);
+    py::dict out = named(sensor.figures->sample_name().c_str(), sensor.name);
+    if (s.scan) {
+      out["points"] = take_vector(std::vector<ScanPoint>(s.scan->points), {py::ssize_t(s.scan->points.size())});
+      out["pose"] = from_pose(s.scan->world_from_sensor.front());
+    }
     const std::vector<ReadingColumn> columns = sensor.figures->columns();
     for (std::size_t i = 0; i < columns.size(); ++i) out[columns[i].name.c_str()] = s.values[i];
     return out;

@@ -20,17 +20,17 @@ Value describe_stamp(std::int64_t stamp_ns, std::int64_t start_ns) {
 
 // One number of each point.
 template <typename Of>
-Value describe_points(const LidarScan& scan, Of of) {
+Value describe_points(const RangeScan& scan, Of of) {
   Value list = Value::make_table();
   list.items.reserve(scan.points.size());
-  for (const LidarPoint& point : scan.points) list.items.push_back(of(point));
+  for (const ScanPoint& point : scan.points) list.items.push_back(of(point));
   return list;
 }
 
 // A range for each ray of a scanner in one plane; infinite: no echo. Of two echoes the stronger, which comes first.
-Value describe_ranges(const LidarScan& scan, const LidarSpec& spec) {
-  std::vector<double> ranges(std::size_t(spec.columns), std::numeric_limits<double>::infinity());
-  for (const LidarPoint& p : scan.points) {
+Value describe_ranges(const RangeScan& scan) {
+  std::vector<double> ranges(std::size_t(scan.spec->columns), std::numeric_limits<double>::infinity());
+  for (const ScanPoint& p : scan.points) {
     double& range = ranges[p.column];
     if (std::isinf(range)) range = norm(Vec3(p.x, p.y, p.z));
   }
@@ -96,25 +96,23 @@ Value describe_sense(const RobotSense& sense, const RobotKind& kind, const Robot
   return table;
 }
 
-Value describe_scan(const LidarScan& scan, const LidarSpec& spec, std::int64_t start_ns) {
-  Value table = Value::make_table();
-  table.set("t", describe_stamp(scan.stamp_ns, start_ns));
-  if (spec.pattern == LidarPattern::planar) {
-    constexpr double kDegree = portable::kPi / 180;
-    table.set("ranges", describe_ranges(scan, spec));
-    table.set("first_angle", Value::make_number(spec.first_azimuth_deg * kDegree));
-    table.set("angle_step", Value::make_number(spec.span_deg * kDegree / spec.columns));
-    return table;
-  }
-  table.set("x", describe_points(scan, [](const LidarPoint& p) { return Value::make_number(p.x); }));
-  table.set("y", describe_points(scan, [](const LidarPoint& p) { return Value::make_number(p.y); }));
-  table.set("z", describe_points(scan, [](const LidarPoint& p) { return Value::make_number(p.z); }));
-  table.set("intensity", describe_points(scan, [](const LidarPoint& p) { return Value::make_number(p.intensity); }));
-  table.set("ring", describe_points(scan, [](const LidarPoint& p) { return Value::make_integer(p.ring); }));
-  return table;
-}
-
 namespace {
+
+void describe_scan(const RangeScan& scan, Value& table) {
+  const auto& spec = *scan.spec;
+  if (spec.planar()) {
+    constexpr double kRadians = portable::kPi / 180;
+    table.set("ranges", describe_ranges(scan));
+    table.set("first_angle", Value::make_number(spec.first_azimuth_deg * kRadians));
+    table.set("angle_step", Value::make_number(spec.span_deg * kRadians / spec.columns));
+    return;
+  }
+  table.set("x", describe_points(scan, [](const ScanPoint& p) { return Value::make_number(p.x); }));
+  table.set("y", describe_points(scan, [](const ScanPoint& p) { return Value::make_number(p.y); }));
+  table.set("z", describe_points(scan, [](const ScanPoint& p) { return Value::make_number(p.z); }));
+  table.set("intensity", describe_points(scan, [](const ScanPoint& p) { return Value::make_number(p.intensity); }));
+  table.set("ring", describe_points(scan, [](const ScanPoint& p) { return Value::make_integer(p.ring); }));
+}
 
 // Of a picture, without its pixels.
 Value describe_frame(const Frame& frame, std::int64_t start_ns) {
@@ -138,6 +136,7 @@ Value describe_reading(const ImuSample& reading, std::int64_t start_ns) {
 Value describe_values(const Reading& reading, const SensorItem& sensor, std::int64_t start_ns) {
   Value table = Value::make_table();
   table.set("t", describe_stamp(reading.stamp_ns, start_ns));
+  if (reading.scan) describe_scan(*reading.scan, table);
   const std::vector<ReadingColumn> columns = sensor.figures->columns();
   for (std::size_t i = 0; i < columns.size(); ++i) table.set(columns[i].name, Value::make_number(reading.values[i]));
   return table;

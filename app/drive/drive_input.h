@@ -26,7 +26,7 @@ enum class DriveAction {
   hulls,      // shown or not
   contacts,   // likewise, with their forces
   frames,     // likewise, of the robots' links
-  scans,      // likewise, what LiDARs measured last
+  scans,      // likewise, what was scanned last
   cameras,    // likewise, what cameras have in view
   voids,      // likewise, the map of voids
   moment,     // save this moment as a mission

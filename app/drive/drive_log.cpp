@@ -26,7 +26,6 @@ std::vector<std::string> adapt_to_driving(Scenario& scenario) {
   // Robots carry theirs, along a way that a run goes again.
   if (scenario.robots.empty()) {
     if (turn_off(!all_imus(scenario).empty(), "inertial units")) scenario.imu.on = false, scenario.imus.clear();
-    if (turn_off(!scenario.lidars.empty(), "LiDARs")) scenario.lidars.clear();
     if (turn_off(!scenario.sensors.empty(), "other sensors")) scenario.sensors.clear();
   }
   scenario.outputs.pcd = scenario.outputs.kitti = false;

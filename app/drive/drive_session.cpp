@@ -177,7 +177,7 @@ FrameListener DriveSession::listener() {
 std::vector<Sample> DriveSession::take_sensed() {
   std::vector<Sample> sensed = world_->robots ? world_->robots->take_sensed() : std::vector<Sample>();
   for (const Sample& sample : sensed)
-    if (const auto* scan = std::get_if<LidarScan>(&sample)) scan_ = *scan;
+    if (const auto* reading = std::get_if<Reading>(&sample); reading && reading->scan) scan_ = reading->scan;
   return sensed;
 }
 
@@ -251,7 +251,7 @@ void DriveSession::act(DriveAction action) {
       (action == DriveAction::contacts ? choice_.contacts : choice_.frames) ^= true;
       return;
     case DriveAction::scans:
-      if (!world_->robots || !link_) return say("echoes are those of scans that are published: a robot with a LiDAR, and --ros1 or --ros2");
+      if (!world_->robots || !link_) return say("echoes are those of scans that are published: a robot with a sensor that scans, and --ros1 or --ros2");
       choice_.scans = !choice_.scans;
       return;
     case DriveAction::cameras:
@@ -288,7 +288,7 @@ std::vector<PictureLine> DriveSession::draw_overlay() {
   if (choice_.hulls) overlay_->add_hulls(world_->pile, world, camera_->pose().position, lines);
   if (choice_.contacts && world) Overlay::add_contacts(*world, lines);
   if (choice_.frames && world) Overlay::add_frames(*world, lines);
-  if (choice_.scans) Overlay::add_scan(scan_, lines);
+  if (choice_.scans && scan_) Overlay::add_scan(*scan_, lines);
   if (choice_.voids) {
     try {
       if (voids_->take_news()) say("the voids are mapped");

@@ -68,7 +68,7 @@ class DriveSession {
   OverlayChoice choice_;
   std::unique_ptr<Overlay> overlay_;  // of this world
   std::unique_ptr<VoidSurvey> voids_;  // likewise
-  LidarScan scan_;                    // the last
+  std::shared_ptr<const RangeScan> scan_;  // the last
   Complaints complaints_{[this](const std::string& line) { say(line); }};
   std::string notice_;
   Clock::time_point notice_until_;

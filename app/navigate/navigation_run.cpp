@@ -8,13 +8,12 @@
 #include "app/navigate/collision_counter.h"
 #include "app/navigate/mission_to_drive.h"
 #include "app/navigate/pilot.h"
+#include "app/navigate/range_scanner.h"
 #include "app/session/session.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/robot/drive_commands.h"
 #include "kernel/robot/robot_run.h"
 #include "kernel/world/world_robots.h"
-#include "render/lidar/lidar.h"
-#include "scripting/scenario/lidar_scenario.h"
 
 namespace rubble {
 namespace {
@@ -25,13 +24,6 @@ const std::vector<NavigatorSlice> kShape{{0.2, 0.46, 0.33}, {0.3, 0.57, 0.33}};
 // Tracks that turn on the spot slide: the robot turns by this share of what its belts would give (docs/reference/robots.md).
 constexpr double kTurnShare = 0.4;
 constexpr double kFallen = 0.3;  // what of the base's Z axis is upright when it lies on its side
-
-LidarSpec make_lidar_spec(const NavigationRules& rules) {
-  LidarScenario lidar;
-  lidar.model = LidarModel::os0, lidar.channels = 32, lidar.columns = 512;
-  lidar.rate_hz = 1 / rules.period;
-  return lidar.spec();
-}
 
 PilotOptions make_pilot_options(const NavigationWorld& world, std::uint64_t seed, const std::string& cache_folder) {
   PilotOptions options;
@@ -50,8 +42,8 @@ ResolvedMission make_mission(const NavigationWorld& world) {
   scenario.robot_run.duration = world.rules().time_limit;
   scenario.robot_run.control_hz = 1 / world.rules().period;
   scenario.robot_run.debris = DebrisMotion::fixed;
-  scenario.lidars.clear();  // it has one of its own, that does not see the robot
-  scenario.trajectory.ride.position = {0, 0, world.rules().lidar_height};
+  scenario.sensors.clear();  // it has one of its own, that does not see the robot
+  scenario.trajectory.ride.position = {};
   return mission;
 }
 
@@ -72,7 +64,8 @@ class Drive {
   Drive(const NavigationWorld& world, std::uint64_t seed, const std::string& cache_folder)
       : world_(world), rules_(world.rules()), mission_(make_mission(world)), context_(run_options(world)),
         session_(mission_, world.pile(), make_robots(mission_, context_), context_, recorded()),
-        lidar_(make_lidar(seed)), pilot_(make_pilot_options(world, seed, cache_folder)),
+        scanner_(make_range_scanner(world, seed, [this](double time) { return base_at(time); })),
+        pilot_(make_pilot_options(world, seed, cache_folder)),
         collisions_(int(world.pile().pieces.size()), rules_.step_height,
                     [&world](const Vec3& place) { return world.is_solid(place); }),
         last_(world.start().translation) {
@@ -101,20 +94,13 @@ class Drive {
     return options;
   }
 
-  // Its scan k ends when period k begins; the first is of the robot before it starts.
-  Lidar make_lidar(std::uint64_t seed) {
-    const Scenario& scenario = world_.mission().scenario;
-    const std::int64_t start = scenario.start_ns;
-    const auto place = [this, start](std::int64_t stamp) {
-      if (session_.steps() == 0) return session_.world_from_rig();
-      return session_.way_of({})->at(double(stamp - start) * 1e-9 - rules_.period);
-    };
-    return {make_lidar_spec(rules_), world_.lidar_world(), {place, start}, Medium(scenario.air, scenario.seed), seed,
-            world_.threads()};
+  // Scan k ends when period k begins; the first is of the robot before it starts.
+  Pose base_at(double time) const {
+    return session_.steps() == 0 ? session_.world_from_rig() : session_.way_of({})->at(time - rules_.period);
   }
 
   RobotCommand control(const RobotSense& sense) {
-    const LidarScan scan = lidar_.take(score_.periods++);
+    const RangeScan scan = scanner_.take(score_.periods++);
     const auto before = std::chrono::steady_clock::now();
     map(scan);
     const Vec3 base = sense.state.links.front().world_from_link.translation;
@@ -131,12 +117,8 @@ class Drive {
 
   double time() const { return (score_.periods - 1) * rules_.period; }
 
-  void map(const LidarScan& scan) {
-    const int last = int(scan.world_from_lidar.size()) - 1;
-    for (const LidarPoint& p : scan.points) {
-      const int sample = int(double(p.time) * 1e9 / double(LidarScan::kMotionStep) + 0.5);
-      pilot_.see(scan.world_from_lidar[std::size_t(std::min(sample, last))] * Vec3{p.x, p.y, p.z});
-    }
+  void map(const RangeScan& scan) {
+    for (const ScanPoint& p : scan.points) pilot_.see(scan.place(p));
   }
 
   PilotInput make_input(const RobotSense& sense) const {
@@ -168,7 +150,7 @@ class Drive {
   ResolvedMission mission_;
   RunContext context_;
   Session session_;
-  Lidar lidar_;
+  RangeScanner scanner_;
   Pilot pilot_;
   CollisionCounter collisions_;
   NavigationScore score_;

@@ -237,7 +237,7 @@ void add_crawler_head(MeshBuilder& out) {
   add_pipe({{0.215, 0.03, 0.24}, {0.19, 0.03, 0.235}, {0.18, 0.03, 0.2}}, 0.004, 0.012, 8, {}, out);
 }
 
-// A LiDAR on four posts, vents, a handle, two aerials, a stop button, a radio's box.
+// A laser scanner on four posts, vents, a handle, two aerials, a stop button, a radio's box.
 void add_crawler_deck(MeshBuilder& out) {
   const double deck = 0.2035;
   out.look("aluminium");
@@ -248,7 +248,7 @@ void add_crawler_deck(MeshBuilder& out) {
       add_pipe({{x, y, deck}, {x, y, 0.302}}, 0.005, 0, 12, {}, out);
       add_bolt(0.004, facing({x, y, 0.306}, {0, 0, 1}), out);
     }
-  add_lidar(0.0515, 0.066, {{}, {0, 0, 0.306}}, out);
+  add_scanner(0.0515, 0.066, {{}, {0, 0, 0.306}}, out);
   out.look("polymer_black");
   add_chamfered_box({0.075, 0.075, 0.04}, {0, 0, 0.226}, 0.006, {}, out);
   for (int k = 0; k < 8; ++k)

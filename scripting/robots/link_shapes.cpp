@@ -9,7 +9,7 @@ namespace rubble {
 namespace {
 
 constexpr int kSmallFacets = 20, kTinyFacets = 10;  // of what is a few cm and one cm across
-constexpr int kLidarFacets = 28;
+constexpr int kScannerFacets = 28;
 
 Vec3 on_ring(const Ring& ring, int k, int facets) {
   const auto [s, c] = portable::sincos(2 * portable::kPi * k / facets);
@@ -235,15 +235,15 @@ void add_lens(double radius, const Pose& at, MeshBuilder& out) {
             at, out);
 }
 
-void add_lidar(double radius, double height, const Pose& at, MeshBuilder& out) {
+void add_scanner(double radius, double height, const Pose& at, MeshBuilder& out) {
   const double r = radius, h = height;
   const Pose up = at * facing({}, {0, 0, 1});
   out.look("aluminium");
-  add_lathe({{0, 0.96 * r}, {0.05 * h, r}, {0.22 * h, r}, {0.26 * h, 0.95 * r}}, kLidarFacets, up, out);
+  add_lathe({{0, 0.96 * r}, {0.05 * h, r}, {0.22 * h, r}, {0.26 * h, 0.95 * r}}, kScannerFacets, up, out);
   out.look("pane");
-  add_lathe({{0.24 * h, 0.93 * r}, {0.76 * h, 0.93 * r}}, kLidarFacets, up, out);
+  add_lathe({{0.24 * h, 0.93 * r}, {0.76 * h, 0.93 * r}}, kScannerFacets, up, out);
   out.look("aluminium");
-  add_lathe({{0.74 * h, 0.95 * r}, {0.78 * h, r}, {0.92 * h, r}, {h, 0.86 * r}}, kLidarFacets, up, out);
+  add_lathe({{0.74 * h, 0.95 * r}, {0.78 * h, r}, {0.92 * h, r}, {h, 0.86 * r}}, kScannerFacets, up, out);
 }
 
 void add_aerial(double height, const Pose& at, MeshBuilder& out) {

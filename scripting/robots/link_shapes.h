@@ -53,8 +53,8 @@ void add_pipe(const std::vector<Vec3>& line, double radius, double bend, int sid
 void add_lamp(double radius, const Pose& at, MeshBuilder& out);
 // A camera's lens; its mount at x = 0, its front at x = 0.6 radius.
 void add_lens(double radius, const Pose& at, MeshBuilder& out);
-// A spinning LiDAR on its foot, which is at z = 0.
-void add_lidar(double radius, double height, const Pose& at, MeshBuilder& out);
+// A spinning laser scanner on its foot, which is at z = 0.
+void add_scanner(double radius, double height, const Pose& at, MeshBuilder& out);
 // A flexible aerial on its foot, along Z.
 void add_aerial(double height, const Pose& at, MeshBuilder& out);
 // A red mushroom button on its box, along Z.

@@ -195,7 +195,7 @@ void add_robot_item_keys(Schema& k, std::vector<RobotItem>& list) {
          "Instead of `drive`: a function that returns commands, registered by rubble.controller.")
       .between(0, 1000);
   k.item("robots[].senses", list, &RobotItem::senses,
-         "Names of the LiDARs, cameras and IMUs whose scans, depths and readings `control` gets; colours: the name "
+         "Names of the sensors whose scans, depths and readings `control` gets; colours: the name "
          "with \".rgb\" (docs/reference/robots.md).");
 }
 

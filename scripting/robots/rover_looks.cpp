@@ -159,7 +159,7 @@ void add_rover_ends(MeshBuilder& out) {
     add_lathe({{0, 0.009}, {0.006, 0.009}, {0.007, 0.007}}, 12, facing({-0.2135, y, 0.128}, {-1, 0, 0}), out);
 }
 
-// Two cameras on a bracket in front, a LiDAR in the middle, a computer's case behind. What rides at
+// Two cameras on a bracket in front, a laser scanner in the middle, a computer's case behind. What rides at
 // {0.2, 0, 0.25} is just before the lenses, and z = 0.3 is free all round.
 void add_rover_deck(MeshBuilder& out) {
   const double deck = 0.191;
@@ -174,7 +174,7 @@ void add_rover_deck(MeshBuilder& out) {
   out.look("polymer_black");
   add_pipe({{0.155, -0.03, 0.232}, {0.13, -0.03, 0.225}, {0.12, -0.03, 0.185}}, 0.003, 0.012, 8, {}, out);
   add_lathe({{-0.004, 0.05}, {0.02, 0.05}, {0.026, 0.044}}, 28, facing({0.03, 0, deck}, {0, 0, 1}), out);
-  add_lidar(0.038, 0.056, {{}, {0.03, 0, deck + 0.025}}, out);
+  add_scanner(0.038, 0.056, {{}, {0.03, 0, deck + 0.025}}, out);
   out.look("paint_light");
   add_chamfered_box({0.11, 0.15, 0.05}, {-0.108, 0, deck + 0.024}, 0.006, {}, out);
   out.look("polymer_black");

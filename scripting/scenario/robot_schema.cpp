@@ -28,7 +28,6 @@ void check_senses(const Scenario& scenario, std::size_t i, std::vector<Diagnosti
   if (robot.control == 0)
     mistakes.push_back({"", 0, key_of(i, "senses"), "there is no controller", "a function as `control`", "no function", ""});
   std::vector<std::string> names;
-  for (const LidarScenario& lidar : scenario.lidars) names.push_back(lidar.name);
   for (const MountedCamera& camera : all_cameras(scenario)) {
     names.push_back(camera.name);
     names.push_back(colour_sense(camera.name));
@@ -81,8 +80,6 @@ void check_sensor_rides(const Scenario& scenario, const std::vector<std::string>
     check_carrier(camera.ride, "cameras." + camera.name + ".ride", names, mistakes);
     mixed = mixed || !(camera.ride == scenario.cameras.front().ride);
   }
-  for (const LidarScenario& lidar : scenario.lidars)
-    check_carrier(lidar.ride, "lidars." + lidar.name + ".ride", names, mistakes);
   check_carrier(scenario.imu.ride, "imu.ride", names, mistakes);
   for (const ImuScenario& imu : scenario.imus)
     check_carrier(imu.ride, "imus." + imu.name + ".ride", names, mistakes);
@@ -92,8 +89,7 @@ void check_sensor_rides(const Scenario& scenario, const std::vector<std::string>
   const bool unseen = !scenario.cameras.empty() &&
                       std::none_of(scenario.cameras.begin(), scenario.cameras.end(), on_rig);
   if (unseen && (std::any_of(imus.begin(), imus.end(), on_rig) ||
-                 std::any_of(scenario.sensors.begin(), scenario.sensors.end(), on_rig) ||
-                 std::any_of(scenario.lidars.begin(), scenario.lidars.end(), on_rig)))
+                 std::any_of(scenario.sensors.begin(), scenario.sensors.end(), on_rig)))
     mistakes.push_back({"", 0, "cameras", "no camera is on the rig, but another sensor is",
                         "a camera on the rig, or a `ride` for every other sensor on it", "", ""});
   if (mixed && scenario.outputs.euroc)

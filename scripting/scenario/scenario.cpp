@@ -7,7 +7,6 @@
 #include "scripting/robots/robot_kind.h"
 #include "scripting/scenario/camera_mistakes.h"
 #include "scripting/scenario/pile_schema.h"
-#include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/scenario_schema.h"
 #include "scripting/scenario/sky_schema.h"
 #include "scripting/scenario/surroundings_schema.h"
@@ -162,6 +161,17 @@ void check_smoothness(const Scenario& scenario, std::vector<Diagnostic>& mistake
   }
 }
 
+// Files of scans need a sensor that scans.
+void check_scans(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  const OutputScenario& outputs = scenario.outputs;
+  std::string kinds;
+  for (const SensorKind* kind : sensor_kinds())
+    if (kind->most_points() > 0) kinds += (kinds.empty() ? "`" : " or `") + kind->key() + "`";
+  for (const auto& [key, wanted] : {std::pair{"outputs.pcd", outputs.pcd}, {"outputs.kitti", outputs.kitti}})
+    if (wanted && std::none_of(scenario.sensors.begin(), scenario.sensors.end(), scans))
+      mistakes.push_back({"", 0, key, "there is nothing to write", "a mission with " + kinds, "none", ""});
+}
+
 }  // namespace
 
 std::vector<std::string> export_names() { return {"ply", "obj", "glb", "sdf", "mjcf", "usd", "urdf"}; }
@@ -176,8 +186,8 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_terrain(scenario.pile.terrain, mistakes);
   check_sky(scenario.light, mistakes);
   check_cameras(scenario, mistakes);
-  check_lidars(scenario, mistakes);
   check_sensors(scenario.sensors, mistakes);
+  check_scans(scenario, mistakes);
   check_sensor_names(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);
   check_stamps(scenario, mistakes);

@@ -114,7 +114,7 @@ const Allowed kRender = stack(
     {"render/scene/", "render/streams/", "render/gl/", "render/camera/", "render/materials/", "render/sky/", "render/geometry/",
      "render/lighting/", "render/shading/", "render/media/", "render/raster/", "render/passes/", "render/colour/",
      "render/transport/", "render/reference/", "render/view/", "render/renderer.", "render/optics/", "render/sensors/",
-     "render/lidar/"},
+     "render/rays/", "render/lidar/"},
     {"kernel/base/"});
 
 const Allowed kIo = stack(
@@ -131,7 +131,7 @@ const Allowed kVoidFiles = stack({"io/base/", "io/image/", "io/voids/", "io/ompl
 // A kind of sensor is one file: with the messages that its readings are.
 const Allowed kSensors{{"scripting/sensors/",
                         {"kernel/base/", "scripting/values/", "scripting/trajectory/", "scripting/schema/", "scripting/sensors/",
-                         "io/recording/reading_format.h", "io/ros/ros_messages.h"}}};
+                         "io/recording/reading_format.h", "io/ros/ros_messages.h", "render/lidar/lidar.h", "render/scene/lidar_spec.h"}}};
 
 // A robot is its files: with its model, and how it is commanded.
 const Allowed kRobots{{"scripting/robots/",

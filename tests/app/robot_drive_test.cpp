@@ -177,8 +177,8 @@ std::string bytes_of(const Sample& sample) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   };
   add(stamp_of(sample));
-  if (const auto* scan = std::get_if<LidarScan>(&sample))
-    for (const LidarPoint& p : scan->points) add(p.x), add(p.y), add(p.z), add(p.intensity), add(p.time), add(p.ring);
+  if (const auto* reading = std::get_if<Reading>(&sample); reading && reading->scan)
+    for (const ScanPoint& p : reading->scan->points) add(p.x), add(p.y), add(p.z), add(p.intensity), add(p.time), add(p.ring);
   if (const auto* reading = std::get_if<ImuSample>(&sample)) add(reading->angular_velocity), add(reading->linear_acceleration);
   if (const auto* robot = std::get_if<RobotSample>(&sample)) {
     add(robot->world_from_base);
@@ -217,7 +217,7 @@ TEST(RobotDrive, SensesWhatTheKeptMissionSenses) {
   ASSERT_EQ(sensed.size(), again.size());
   std::array<int, 8> kinds{};
   for (const Sample& sample : sensed) ++kinds[sample.index()];
-  EXPECT_GT(kinds[Sample(LidarScan()).index()], 30);
+  EXPECT_GT(kinds[Sample(Reading()).index()], 30);
   EXPECT_GT(kinds[Sample(ImuSample()).index()], 150);
   const auto in_order = [](const Sample& a, const Sample& b) { return stamp_of(a) < stamp_of(b); };
   std::stable_sort(sensed.begin(), sensed.end(), in_order);

@@ -1,4 +1,4 @@
-#include "render/lidar/lidar_world.h"
+#include "render/rays/ray_world.h"
 
 #include <algorithm>
 #include <map>
@@ -29,7 +29,7 @@ RTCQuaternionDecomposition decompose(const Pose& pose, float scale) {
 
 }  // namespace
 
-struct LidarWorld::Tree : EmbreeTree {
+struct RayWorld::Tree : EmbreeTree {
   struct Mover {
     RTCGeometry geometry = nullptr;  // owned by the tree
     SceneInstance instance;
@@ -80,7 +80,7 @@ struct LidarWorld::Tree : EmbreeTree {
   }
 };
 
-LidarWorld::Tree::Merged LidarWorld::Tree::merge(const std::vector<const SceneInstance*>& instances, RTCScene into) {
+RayWorld::Tree::Merged RayWorld::Tree::merge(const std::vector<const SceneInstance*>& instances, RTCScene into) {
   Merged merged;
   std::vector<Vec3f> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -100,7 +100,7 @@ LidarWorld::Tree::Merged LidarWorld::Tree::merge(const std::vector<const SceneIn
 }
 
 // An instance in the world's own frame.
-void LidarWorld::Tree::place_at_rest(RTCScene of, unsigned number) {
+void RayWorld::Tree::place_at_rest(RTCScene of, unsigned number) {
   rtcCommitScene(of);
   const RTCGeometry instance = attach_instance(of, number);
   const RTCQuaternionDecomposition there = decompose({}, 1);
@@ -108,7 +108,7 @@ void LidarWorld::Tree::place_at_rest(RTCScene of, unsigned number) {
   rtcCommitGeometry(instance);
 }
 
-void LidarWorld::Tree::add_resting(const Scene& from) {
+void RayWorld::Tree::add_resting(const Scene& from) {
   std::vector<std::uint8_t> moves(from.instances.size(), 0);
   for (const std::uint32_t i : from.motion.moving) moves.at(i) = 1;
   std::vector<const SceneInstance*> still;
@@ -124,7 +124,7 @@ void LidarWorld::Tree::add_resting(const Scene& from) {
 }
 
 // stands: by mover.
-void LidarWorld::Tree::stand_up(const std::vector<std::uint8_t>& stands) {
+void RayWorld::Tree::stand_up(const std::vector<std::uint8_t>& stands) {
   std::vector<const SceneInstance*> standing;
   for (std::size_t i = 0; i < movers.size(); ++i) {
     movers[i].stands = stands[i];
@@ -144,7 +144,7 @@ void LidarWorld::Tree::stand_up(const std::vector<std::uint8_t>& stands) {
   place_at_rest(standing_scene, number);
 }
 
-void LidarWorld::Tree::add_movers(const Scene& from) {
+void RayWorld::Tree::add_movers(const Scene& from) {
   for (const std::uint32_t i : from.motion.moving) {
     const SceneInstance& piece = from.instances[i];
     RTCScene& of_mesh = meshes[piece.mesh];
@@ -162,7 +162,7 @@ void LidarWorld::Tree::add_movers(const Scene& from) {
 }
 
 // Of each triangle of a mesh: an index into all_surface_appearances(), after its end one into paint_reds.
-const std::vector<std::uint16_t>& LidarWorld::Tree::looks_of(const TriangleMesh& mesh) {
+const std::vector<std::uint16_t>& RayWorld::Tree::looks_of(const TriangleMesh& mesh) {
   const auto [found, is_new] = known_looks.try_emplace(&mesh);
   if (!is_new) return found->second;
   std::vector<std::uint16_t> names;
@@ -182,7 +182,7 @@ const std::vector<std::uint16_t>& LidarWorld::Tree::looks_of(const TriangleMesh&
 }
 
 // normal: as Embree gives it, in the frame of the mesh.
-LidarWorld::Hit LidarWorld::Tree::read(unsigned primitive, unsigned instance, const Vec3f& normal,
+RayWorld::Hit RayWorld::Tree::read(unsigned primitive, unsigned instance, const Vec3f& normal,
                                        const Ray& ray, double t) const {
   Vec3 out(normal);
   std::uint16_t look = 0;
@@ -202,19 +202,19 @@ LidarWorld::Hit LidarWorld::Tree::read(unsigned primitive, unsigned instance, co
 }
 
 // Null: a mover.
-const LidarWorld::Tree::Merged* LidarWorld::Tree::merged_of(unsigned instance) const {
+const RayWorld::Tree::Merged* RayWorld::Tree::merged_of(unsigned instance) const {
   if (instance == RTC_INVALID_GEOMETRY_ID || instance == kResting) return &resting_mesh;
   return instance - kResting - 1 < movers.size() ? nullptr : &standing_mesh;
 }
 
-std::int32_t LidarWorld::Tree::piece_of(unsigned primitive, unsigned instance) const {
+std::int32_t RayWorld::Tree::piece_of(unsigned primitive, unsigned instance) const {
   const Merged* const at_rest = merged_of(instance);
   if (!at_rest) return std::int32_t(movers[instance - kResting - 1].instance.id);
   const auto end = std::upper_bound(at_rest->ends.begin(), at_rest->ends.end(), primitive);
   return at_rest->pieces[std::size_t(end - at_rest->ends.begin())];
 }
 
-LidarWorld::LidarWorld(const Scene& from) : tree_(std::make_unique<Tree>()) {
+RayWorld::RayWorld(const Scene& from) : tree_(std::make_unique<Tree>()) {
   Tree& t = *tree_;
   t.scene_meshes = from.meshes, t.motion = from.motion, t.ground = from.ground;
   t.add_resting(from);
@@ -222,11 +222,11 @@ LidarWorld::LidarWorld(const Scene& from) : tree_(std::make_unique<Tree>()) {
   if (!moves()) t.commit();
 }
 
-LidarWorld::~LidarWorld() = default;
+RayWorld::~RayWorld() = default;
 
-bool LidarWorld::moves() const { return !tree_->movers.empty(); }
+bool RayWorld::moves() const { return !tree_->movers.empty(); }
 
-void LidarWorld::span(std::int64_t from_ns, std::int64_t to_ns) {
+void RayWorld::span(std::int64_t from_ns, std::int64_t to_ns) {
   if (!moves()) return;
   const std::vector<std::optional<Pose>> begin = tree_->motion.poses_at(from_ns),
                                          end = tree_->motion.poses_at(to_ns);
@@ -265,7 +265,7 @@ void LidarWorld::span(std::int64_t from_ns, std::int64_t to_ns) {
   if (changed) tree_->commit();
 }
 
-void LidarWorld::Tree::intersect(const Ray* rays, std::size_t count, double max_distance, RTCRayHit8& query) const {
+void RayWorld::Tree::intersect(const Ray* rays, std::size_t count, double max_distance, RTCRayHit8& query) const {
   EmbreeRayContext context(true);
   alignas(32) int valid[kPacket];
   for (std::size_t i = 0; i < kPacket; ++i) {
@@ -281,7 +281,7 @@ void LidarWorld::Tree::intersect(const Ray* rays, std::size_t count, double max_
   embree_intersect(scene, valid, query, context);
 }
 
-void LidarWorld::cast(const Ray* rays, std::size_t count, double max_distance, Hit* hits) const {
+void RayWorld::cast(const Ray* rays, std::size_t count, double max_distance, Hit* hits) const {
   RTCRayHit8 query;
   tree_->intersect(rays, count, max_distance, query);
   for (std::size_t i = 0; i < count; ++i) {
@@ -296,7 +296,7 @@ void LidarWorld::cast(const Ray* rays, std::size_t count, double max_distance, H
   }
 }
 
-void LidarWorld::cast(const Ray* rays, std::size_t count, double max_distance, double* distances,
+void RayWorld::cast(const Ray* rays, std::size_t count, double max_distance, double* distances,
                       std::int32_t* pieces) const {
   RTCRayHit8 query;
   tree_->intersect(rays, count, max_distance, query);

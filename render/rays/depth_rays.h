@@ -6,7 +6,7 @@
 
 #include "kernel/base/math.h"
 #include "kernel/base/parallel.h"
-#include "render/lidar/lidar_world.h"
+#include "render/rays/ray_world.h"
 #include "render/scene/frame.h"
 
 namespace rubble {
@@ -17,9 +17,9 @@ class DepthRays {
   DepthRays(const Intrinsics& k, double max_range);
 
   // depth: width * height values, row by row: metres along the optical axis, infinite where nothing is within
-  // max_range. pieces: likewise, as LidarWorld::Hit::piece; null: not asked for. The result does not depend on
+  // max_range. pieces: likewise, as RayWorld::Hit::piece; null: not asked for. The result does not depend on
   // the threads.
-  void cast(const LidarWorld& world, const Pose& world_from_camera, ThreadPool& pool, float* depth,
+  void cast(const RayWorld& world, const Pose& world_from_camera, ThreadPool& pool, float* depth,
             std::int32_t* pieces = nullptr) const;
 
   const Intrinsics& intrinsics() const { return k_; }

@@ -1,4 +1,4 @@
-#include "io/mrpt/lidar_observations.h"
+#include "io/mrpt/range_scan_observations.h"
 
 #include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
@@ -18,23 +18,23 @@ constexpr double kRadian = portable::kPi / 180;
 constexpr double kMostSteps = 65535;
 constexpr double kStep = 0.002;  // of ranges; unit: m
 
-double range_of(const LidarPoint& p) {
+double range_of(const ScanPoint& p) {
   return std::sqrt(double(p.x) * double(p.x) + double(p.y) * double(p.y) + double(p.z) * double(p.z));
 }
 
 // The finest multiple of kStep by which its reach fits into 16 bits.
 double range_step(const LidarSpec& spec) { return kStep * std::ceil(spec.max_range / (kStep * kMostSteps)); }
 
-void describe(const LidarScan& scan, const LidarRecord& lidar, mrpt::obs::CObservation& out) {
+void describe(const RangeScan& scan, const SensorRecord& sensor, mrpt::obs::CObservation& out) {
   out.timestamp = mrpt_time(scan.stamp_ns);
-  out.sensorLabel = lidar.name;
-  out.setSensorPose(mrpt_pose(lidar.rig_from_lidar));
+  out.sensorLabel = sensor.name;
+  out.setSensorPose(mrpt_pose(sensor.rig_from_sensor));
 }
 
-mrpt::obs::CObservationRotatingScan rotating_scan(const LidarScan& scan, const LidarRecord& lidar) {
-  const LidarSpec& spec = lidar.spec;
+mrpt::obs::CObservationRotatingScan rotating_scan(const RangeScan& scan, const SensorRecord& sensor) {
+  const LidarSpec& spec = *scan.spec;
   mrpt::obs::CObservationRotatingScan out;
-  describe(scan, lidar, out);
+  describe(scan, sensor, out);
   out.originalReceivedTimestamp = out.timestamp;
   out.lidarModel = spec.model;
   out.rowCount = std::uint16_t(spec.rings()), out.columnCount = std::uint16_t(spec.columns);
@@ -46,7 +46,7 @@ mrpt::obs::CObservationRotatingScan rotating_scan(const LidarScan& scan, const L
   out.rangeImage.setZero(spec.rings(), spec.columns);
   out.intensityImage.setZero(spec.rings(), spec.columns);
   if (spec.returns == LidarReturns::dual) out.rangeOtherLayers["SECOND"].setZero(spec.rings(), spec.columns);
-  for (const LidarPoint& p : scan.points) {
+  for (const ScanPoint& p : scan.points) {
     const auto steps = std::uint16_t(std::min(kMostSteps, range_of(p) / out.rangeResolution + 0.5));
     if (out.rangeImage(p.ring, p.column) != 0) {
       out.rangeOtherLayers.at("SECOND")(p.ring, p.column) = steps;
@@ -58,13 +58,13 @@ mrpt::obs::CObservationRotatingScan rotating_scan(const LidarScan& scan, const L
   return out;
 }
 
-mrpt::obs::CObservationPointCloud point_cloud(const LidarScan& scan, const LidarRecord& lidar) {
+mrpt::obs::CObservationPointCloud point_cloud(const RangeScan& scan, const SensorRecord& sensor) {
   mrpt::obs::CObservationPointCloud out;
-  describe(scan, lidar, out);
+  describe(scan, sensor, out);
   auto points = mrpt::maps::CPointsMapXYZI::Create();
   points->resize(scan.points.size());
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    const LidarPoint& p = scan.points[i];
+    const ScanPoint& p = scan.points[i];
     points->setPointFast(i, p.x, p.y, p.z);
     points->setPointIntensity(i, p.intensity / 100);
   }
@@ -72,10 +72,10 @@ mrpt::obs::CObservationPointCloud point_cloud(const LidarScan& scan, const Lidar
   return out;
 }
 
-mrpt::obs::CObservation2DRangeScan planar_scan(const LidarScan& scan, const LidarRecord& lidar) {
-  const LidarSpec& spec = lidar.spec;
+mrpt::obs::CObservation2DRangeScan planar_scan(const RangeScan& scan, const SensorRecord& sensor) {
+  const LidarSpec& spec = *scan.spec;
   mrpt::obs::CObservation2DRangeScan out;
-  describe(scan, lidar, out);
+  describe(scan, sensor, out);
   out.aperture = float(std::fabs(spec.span_deg) * (spec.columns - 1) / spec.columns * kRadian);
   out.rightToLeft = spec.span_deg > 0;
   out.maxRange = float(spec.max_range);
@@ -93,15 +93,15 @@ mrpt::obs::CObservation2DRangeScan planar_scan(const LidarScan& scan, const Lida
 
 }  // namespace
 
-void write_lidar_observation(const LidarScan& scan, const LidarRecord& lidar,
-                             const std::function<void(const mrpt::obs::CObservation&)>& write) {
-  switch (lidar.spec.pattern) {
+void write_range_scan(const RangeScan& scan, const SensorRecord& sensor,
+                      const std::function<void(const mrpt::obs::CObservation&)>& write) {
+  switch (scan.spec->pattern) {
     case LidarPattern::spinning:  // a matrix of ranges has no place for beams of its own
-      return lidar.spec.regular ? write(rotating_scan(scan, lidar)) : write(point_cloud(scan, lidar));
+      return scan.spec->regular ? write(rotating_scan(scan, sensor)) : write(point_cloud(scan, sensor));
     case LidarPattern::rosette:
-      return write(point_cloud(scan, lidar));
+      return write(point_cloud(scan, sensor));
     case LidarPattern::planar:
-      return write(planar_scan(scan, lidar));
+      return write(planar_scan(scan, sensor));
   }
 }
 

@@ -1,4 +1,4 @@
-#include "render/lidar/depth_rays.h"
+#include "render/rays/depth_rays.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,7 +9,7 @@ namespace rubble {
 namespace {
 
 constexpr int kPixelsAtOnce = 512;  // rays that a thread takes at once
-constexpr int kPacketSize = int(LidarWorld::kPacket);
+constexpr int kPacketSize = int(RayWorld::kPacket);
 constexpr int kTileWidth = 4, kTileHeight = 2;  // of a packet, in pixels: its rays meet more of the same than those of a row
 
 std::vector<std::uint32_t> order_by_tiles(int width, int height) {
@@ -32,11 +32,11 @@ DepthRays::DepthRays(const Intrinsics& k, double max_range) : k_(k), max_range_(
     }
 }
 
-void DepthRays::cast(const LidarWorld& world, const Pose& world_from_camera, ThreadPool& pool, float* depth,
+void DepthRays::cast(const RayWorld& world, const Pose& world_from_camera, ThreadPool& pool, float* depth,
                      std::int32_t* pieces) const {
   const Mat3 turn = world_from_camera.rotation.matrix();
   pool.run(int(directions_.size()), kPixelsAtOnce, [&](int begin, int end) {
-    LidarWorld::Ray rays[kPacketSize];
+    RayWorld::Ray rays[kPacketSize];
     double distances[kPacketSize];
     std::int32_t met[kPacketSize];
     for (int first = begin; first < end; first += kPacketSize) {

@@ -1,11 +1,11 @@
-// Scans of LiDARs as files: a folder for each LiDAR, a file for each scan.
+// Scans of ranges as files: a folder for each sensor that scans, a file for each scan.
 //
 //   pcd/NAME/000000.pcd    binary PCD 0.7 (PCL): x y z intensity, ring (u16), time (f32, s since the stamp)
 //   pcd/NAME/stamps.txt    a line a scan: its stamp, the file
 //   pcd/NAME/motion.txt    TUM: where the sensor truly was, every millisecond of every scan
 //   kitti/NAME/velodyne/000000.bin   x y z and reflectance (intensity / 100), float32
 //   kitti/NAME/times.txt   seconds since the first scan; poses.txt: the true pose at each stamp, the upper
-//                          three rows of world_from_lidar
+//                          three rows of world_from_sensor
 #pragma once
 
 #include <memory>

@@ -18,7 +18,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
-#include "scripting/scenario/lidar_scenario.h"
+#include "scripting/sensors/lidar.h"
 
 namespace rubble {
 namespace {
@@ -90,7 +90,7 @@ LidarSpec utm30lx(double rate_hz) {
   return s;
 }
 
-LidarSpec figures(const LidarScenario& l) {
+LidarSpec figures(const LidarFigures& l) {
   switch (l.model) {
     case LidarModel::os0:
     case LidarModel::os1:
@@ -108,16 +108,16 @@ LidarSpec figures(const LidarScenario& l) {
 
 }  // namespace
 
-bool LidarScenario::has_channels() const {
+const std::vector<std::string>& lidar_model_names() {
+  static const std::vector<std::string> names{"vlp16", "os0", "os1", "os2", "mid360", "utm30lx"};
+  return names;
+}
+
+bool LidarFigures::has_channels() const {
   return model == LidarModel::os0 || model == LidarModel::os1 || model == LidarModel::os2;
 }
 
-Pose LidarScenario::rig_from_lidar() const {
-  constexpr double kRadian = portable::kPi / 180;
-  return {portable::quat_from_rpy(rpy_deg.x * kRadian, rpy_deg.y * kRadian, rpy_deg.z * kRadian), position};
-}
-
-LidarSpec LidarScenario::spec() const {
+LidarSpec LidarFigures::spec() const {
   LidarSpec s = figures(*this);
   if (has_channels() && !beam_elevations_deg.empty()) {
     s.elevations_deg = beam_elevations_deg;
@@ -127,13 +127,13 @@ LidarSpec LidarScenario::spec() const {
   if (has_channels()) s.azimuths_deg = beam_azimuths_deg;
   s.beam_radius = beam_radius, s.beam_height = beam_height;
   s.regular = !has_own_beams();
-  s.rate_hz = rate_hz.value_or(planar() ? 40 : 10);
+  s.rate_hz = rate();
   s.min_range = min_range.value_or(s.min_range), s.max_range = max_range.value_or(s.max_range);
   s.range_at_10_percent = range_at_10_percent.value_or(s.range_at_10_percent);
   s.range_noise = range_noise.value_or(s.range_noise);
   s.range_step = range_step.value_or(s.range_step);
   s.divergence_mrad = divergence_mrad.value_or(s.divergence_mrad);
-  s.returns = returns, s.noise = noise;
+  s.returns = returns;
   return s;
 }
 

@@ -1,4 +1,4 @@
-// Scans of LiDARs as MRPT's observations. Internal to io/mrpt.
+// Scans of ranges as MRPT's observations. Internal to io/mrpt.
 #pragma once
 
 #include <mrpt/obs/CObservation.h>
@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "io/recording/recording.h"
-#include "render/scene/lidar_scan.h"
+#include "render/scene/range_scan.h"
 
 namespace rubble {
 
@@ -15,7 +15,7 @@ namespace rubble {
 // rosette: CObservationPointCloud with a CPointsMapXYZI. planar: CObservation2DRangeScan, whose
 //   rays MRPT takes to lie evenly about X.
 // write: called once.
-void write_lidar_observation(const LidarScan& scan, const LidarRecord& lidar,
-                             const std::function<void(const mrpt::obs::CObservation&)>& write);
+void write_range_scan(const RangeScan& scan, const SensorRecord& sensor,
+                      const std::function<void(const mrpt::obs::CObservation&)>& write);
 
 }  // namespace rubble

@@ -1,4 +1,4 @@
-// What the rays of a LiDAR meet: the exact triangles of the pieces at their finest, and the ground z = 0.
+// What rays of any sensor meet: the exact triangles of the pieces at their finest, and the ground z = 0.
 //
 // What moves is an instance in Embree's tree with its pose at two times; between them Embree moves it
 // along a straight line and a constant turn, so that each ray meets it where it is at the ray's own
@@ -13,7 +13,7 @@
 
 namespace rubble {
 
-class LidarWorld {
+class RayWorld {
  public:
   struct Ray {
     Vec3 from;       // unit: m
@@ -31,8 +31,8 @@ class LidarWorld {
   static constexpr std::size_t kPacket = 8;
 
   // Keeps what moves in the scene, not the scene. Throws RunError: unknown look, out of memory.
-  explicit LidarWorld(const Scene& scene);
-  ~LidarWorld();
+  explicit RayWorld(const Scene& scene);
+  ~RayWorld();
 
   bool moves() const;
   // From when to when the rays that follow are cast. Not while another thread casts. What is not there

@@ -316,23 +316,6 @@ TEST(IncludeDirection, EveryThirdPartyHasADoor) {
     }
 }
 
-// A room that needs more is two rooms.
-constexpr std::size_t kMostFilesOfARoom = 25;
-
-TEST(Rooms, AreSmall) {
-  for (const std::string& floor : kFloors) {
-    std::map<std::string, std::size_t> files;
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(RUBBLE_SOURCE_DIR) / floor))
-      if (entry.is_regular_file())
-        ++files[fs::relative(entry.path().parent_path(), RUBBLE_SOURCE_DIR).string()];
-    EXPECT_FALSE(files.empty()) << floor;
-    for (const auto& [room, count] : files) {
-      if (starts_with_any(room, {"assets", "bench"})) continue;
-      EXPECT_LE(count, kMostFilesOfARoom) << room << " has too many files: split it";
-    }
-  }
-}
-
 // docs/development/contributing.md shows every room.
 TEST(Rooms, AreDrawn) {
   std::ifstream in(RUBBLE_SOURCE_DIR "/docs/development/contributing.md");

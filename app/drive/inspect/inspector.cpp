@@ -84,15 +84,15 @@ Scenario choose_drawn(const Scenario& of, int width, int height) {
   return drawn;
 }
 
-// From a corner, so that all of it is in view.
-DrivenPose look_over(const PileState& pile) {
+// From a corner, so that all of it is in view but for terrain.
+DrivenPose look_over(const PileState& pile, const std::vector<PieceType>& types) {
   Aabb box;
   box.include({-0.5, -0.5, 0}), box.include({0.5, 0.5, 0.5});
   for (const PieceState& piece : pile.pieces)
-    if (piece.status != PieceStatus::fixed && piece.status != PieceStatus::lost) box.include(piece.world_from_body.translation);
+    if (!types[std::size_t(piece.type)].surface && piece.status != PieceStatus::lost) box.include(piece.world_from_body.translation);
   const Vec3 extent = box.max - box.min, middle = (box.max + box.min) * 0.5;
   const double reach = std::max({extent.x, extent.y, extent.z}), away = 0.8 * reach + 1.2;
-  const Vec3 target{middle.x, middle.y, 0.35 * box.max.z};
+  const Vec3 target{middle.x, middle.y, 0.25 * box.max.z};
   const Vec3 from{target.x - 0.8 * away, target.y - 0.6 * away, target.z + 0.45 * away};
   const Vec3 d = target - from;
   constexpr double kDegrees = 180 / portable::kPi;
@@ -206,7 +206,7 @@ void Inspector::run() {
         if (!camera_) {
           DriveLimits limits;
           limits.speed = 2;
-          camera_ = std::make_unique<DrivenCamera>(look_over(drawn_), Plan::ghost, 0.1, nothing(), limits);
+          camera_ = std::make_unique<DrivenCamera>(look_over(drawn_, mission_->assets.types), Plan::ghost, 0.1, nothing(), limits);
           print_err("inspect: ready, H for help\n");
         }
       }

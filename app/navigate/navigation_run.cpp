@@ -96,7 +96,7 @@ class Drive {
 
   // Scan k ends when period k begins; the first is of the robot before it starts.
   Pose base_at(double time) const {
-    return session_.steps() == 0 ? session_.world_from_rig() : session_.way_of({})->at(time - rules_.period);
+    return session_.steps() == 0 ? session_.world_from_rig() : session_.ways().ride->at(time - rules_.period);
   }
 
   RobotCommand control(const RobotSense& sense) {

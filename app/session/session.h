@@ -78,8 +78,8 @@ class Session {
   std::optional<Pose> world_from(const Carrier& carrier) const { return history_.world_from(carrier); }
   // From outside, on a piece or a link, before the next step: see World::apply_impulse(). No mission says this again.
   void apply_impulse(int piece, const Vec3& point, const Vec3& impulse) { run_->apply_impulse(piece, point, impulse); }
-  // The way of what carries sensors so far, on to now: its last two steps may still change a little between them.
-  const std::shared_ptr<const MotionPath>& way_of(const Carrier& carrier) const { return history_.way_of(carrier, "ride"); }
+  // Ways of what carries sensors so far, on to now: between the last two steps they may still change a little.
+  const RobotReadings& ways() const { return history_.ways(); }
   // The scene with everything where it is when it is drawn. drawn: the scenario of the camera. It must not outlive this.
   Scene build_scene(const Scenario& drawn) const;
 

@@ -126,7 +126,7 @@ const std::vector<KeyHelp>& all_inspector_help() {
       {"hulls, contacts", "V, C", ""},
       {"views of cameras", "O", ""},
       {"map of voids", "M", ""},
-      {"links, LiDAR echoes", "G, B", ""},
+      {"links, echoes of scans", "G, B", ""},
       {"lamp", "L", "A"},
       {"save a picture", "P", "press the left stick"},
       {"this help", "H or F1", "X"},
@@ -165,7 +165,7 @@ void Inspector::enter(std::optional<std::uint64_t> seed) {
   overlay_ = std::make_unique<Overlay>(mission_->assets.types);
   voids_ = std::make_unique<VoidSurvey>(mission_->scenario.voids, mission_->assets);
   spring_.release();
-  flight_.clear(), scan_ = {}, touched_ = 0;
+  flight_.clear(), scan_.reset(), touched_ = 0;
   window_.set_title("rubble inspect: " + of.mission + ", seed " + std::to_string(mission_->scenario.seed));
 }
 
@@ -287,7 +287,7 @@ void Inspector::turn() {
   camera_->step(input, 1 / kPictureRate);
   if (robots_)
     for (const Sample& sample : robots_->observe())
-      if (const auto* scan = std::get_if<LidarScan>(&sample)) scan_ = *scan;
+      if (const auto* reading = std::get_if<Reading>(&sample); reading && reading->scan) scan_ = reading->scan;
   const std::int64_t stamp = mission_->scenario.start_ns + std::int64_t(double(frames_) * 1e9 / kPictureRate);
   eye_->fly_on(stamp, camera_->pose().world_from_camera());
   frame_ = eye_->take(frames_++);
@@ -362,7 +362,7 @@ void Inspector::act(DriveAction action) {
       return;
     case DriveAction::scans:
       choice_.scans = !choice_.scans;
-      if (choice_.scans && !robots_) say("echoes are those of LiDARs on robots, which come when the pile rests");
+      if (choice_.scans && !robots_) say("echoes are those of scans on robots, which come when the pile rests");
       return;
     case DriveAction::cameras:
       choice_.cameras = !choice_.cameras;
@@ -456,7 +456,7 @@ std::vector<PictureLine> Inspector::draw_overlay() {
   if (choice_.hulls && !robots_) overlay_->add_hulls(pile_->state(), nullptr, camera_->pose().position, lines, kHullReach);
   if (choice_.contacts) Overlay::add_all_contacts(world(), step_time(), camera_->pose().position, lines);
   if (choice_.frames) Overlay::add_frames(world(), lines);
-  if (choice_.scans) Overlay::add_scan(scan_, lines);
+  if (choice_.scans && scan_) Overlay::add_scan(*scan_, lines);
   if (choice_.cameras) add_cameras(lines);
   if (choice_.voids) {
     try {

@@ -25,7 +25,7 @@ struct AssetLibrary {
   std::vector<RobotContent> robots;                      // of the mission's URDF files
   std::vector<std::string> robot_files;                  // their paths, one per robot; "": a bundled robot
   int building_first_type = 0;                           // of the building's pieces, if there is one
-  std::vector<int> building_counts;                      // of pieces of that type and of those after it
+  std::shared_ptr<const BuildingStructures> structures;  // of the building; null: there is none
   std::vector<CutFrom> building_cuts;                    // by piece of the building, in the pile's order
   // What reads the meshes; let go when all are loaded.
   std::shared_ptr<MeshImporter> importer = std::make_shared<MeshImporter>();

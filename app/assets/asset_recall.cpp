@@ -47,7 +47,7 @@ void remake_box(const AssetContent& wanted, const Scenario& scenario,
 // The pieces of the building that a provenance names: all of them with the first.
 void remake_building(const AssetContent& wanted, const Scenario& scenario, const std::string& file,
                      AssetLibrary& library) {
-  if (!library.has(wanted.name)) add_building(building_of(scenario), scenario.pile.terrain.position, library);
+  if (!library.has(wanted.name)) add_building(building_of(scenario.pile, scenario.seed), scenario.pile.terrain.position, library);
   for (const AssetContent& made : library.contents) {
     if (made.name == wanted.name && made.sha256 == wanted.sha256) return;
   }

@@ -9,6 +9,7 @@
 
 #include "app/formats/recording_formats.h"
 #include "io/mesh/pile_export.h"
+#include "kernel/structure/building.h"
 
 namespace rubble {
 namespace {
@@ -77,8 +78,7 @@ void add_surroundings(const SurroundingsSpec& s, PileModelSize& size) {
 
 // The building's pieces, and what furnishes it: in each bay of each floor, or on each floor of a plan.
 void add_building(const PileScenario& pile, const AssetLibrary& assets, PileModelSize& size) {
-  for (std::size_t i = 0; i < assets.building_counts.size(); ++i)
-    add(assets, assets.building_first_type + int(i), assets.building_counts[i], size);
+  for (const StructurePiece& piece : assets.structures->damaged.pieces) add(assets, assets.building_first_type + piece.type, 1, size);
   const BuildingSpec& b = pile.building;
   const double bays = b.planned() ? 1 : double(b.bays_x) * b.bays_y;
   const double storeys = b.planned() ? double(b.plan.heights.size()) : b.storeys;
@@ -133,7 +133,7 @@ double count_frames(const std::vector<RecordedSize>& cameras) {
 void add_recordings(const Scenario& s, const std::vector<RecordedSize>& cameras, Estimate& sizes) {
   for (const RecordingFormat& format : recording_formats()) {
     if (!is_wanted(format, s)) continue;
-    const bool apart = format.one_camera && !s.cameras.empty();
+    const bool apart = format.one_camera && s.names_cameras();
     std::uint64_t& sum = sizes[apart ? kCamerasFolder : format.leaves];
     for (const RecordedSize& size : cameras) sum += std::uint64_t(format.estimate(size));
   }

@@ -7,7 +7,7 @@
 //   voids      PileSurvey            Metrics
 //   files      SettledPile           meshes of the pile           pile.stl, track.glb
 //   robots     SettledPile           DrivenRobots                 robots/
-//   flight     both, PileSurvey      PlannedFlight                flight.json
+//   flight     both, PileSurvey      legs of the recording        flight.json
 //   frames     all of these          RecordedFrames               every recorder's file
 //   manifest   all                   hashes of all                manifest.json
 //
@@ -37,12 +37,6 @@ struct SettledPile {
   PileState state;  // settled, or the state at the time limit
   Track track;      // motion of the pieces; empty if the mission does not request it
   Metrics metrics;  // of the pile
-};
-
-// The mission with its resolved path, and its legs, each with the stamps and poses of all cameras.
-struct PlannedFlight {
-  Scenario flown;         // the source of the scenarios of all legs
-  std::vector<Leg> legs;  // in their order; at least one
 };
 
 struct RecordedFrames {
@@ -78,8 +72,8 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
                           RunContext& context);
 
 // Finds the path if it depends on the pile. Warns of cameras inside pieces. Throws InputError, with the line of the
-// script, as resolve_flight() and plan_legs() do.
-PlannedFlight plan_flight(const ResolvedMission& mission, const SettledPile& pile,
+// script, as resolve_flight() and plan_legs() do. At least one leg is returned.
+std::vector<Leg> plan_flight(const ResolvedMission& mission, const SettledPile& pile,
                           const DrivenRobots& robots, PileSurvey& survey, RunFolder& folder, RunContext& context);
 
 // A renderer of the lit scene on the device of `gl`, for the scenario's cameras. on_light: progress from 0 to 1;
@@ -90,7 +84,7 @@ std::unique_ptr<Renderer> prepare_renderer(const Scene& scene, const Scenario& s
                                            const std::function<void(double)>& on_image = {});
 
 RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& pile,
-                             const DrivenRobots& robots, const PlannedFlight& flight,
+                             const DrivenRobots& robots, const std::vector<Leg>& legs,
                              RunFolder& folder, RunContext& context);
 
 // The union of both, which have no name in common.

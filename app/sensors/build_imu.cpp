@@ -6,10 +6,10 @@
 
 namespace rubble {
 
-Imu build_imu(const Scenario& scenario, const ImuScenario& imu, std::uint64_t noise_seed, const MotionPath& path) {
+Imu build_imu(const ImuScenario& imu, double gravity, std::uint64_t noise_seed, std::int64_t start_ns, const MotionPath& path) {
   const std::uint64_t seed =
-      scenario.imus.empty() ? noise_seed : RandomStream(noise_seed, "imus/" + imu.name).next();
-  return Imu(path, imu.model, scenario.settle.gravity, seed, scenario.start_ns,
+      imu.named ? RandomStream(noise_seed, "imus/" + imu.name).next() : noise_seed;
+  return Imu(path, imu.model, gravity, seed, start_ns,
              imu.is_rig() ? std::nullopt : std::optional(imu.rig_from_imu()));
 }
 

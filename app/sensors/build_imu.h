@@ -9,7 +9,8 @@
 
 namespace rubble {
 
-// Of several units each has noise of its own. noise_seed: of all sensors. path: of its carrier; must outlive the unit.
-Imu build_imu(const Scenario& scenario, const ImuScenario& imu, std::uint64_t noise_seed, const MotionPath& path);
+// Each unit with a name has noise of its own. noise_seed: of all sensors. path: of its carrier, from start_ns on; must
+// outlive the unit. gravity: unit: m/s2
+Imu build_imu(const ImuScenario& imu, double gravity, std::uint64_t noise_seed, std::int64_t start_ns, const MotionPath& path);
 
 }  // namespace rubble

@@ -30,10 +30,8 @@ class LidarSensor : public Sensor {
   std::int64_t last_ns_;
 };
 
-LidarPlace place_of(const LidarScenario& lidar, const Scenario& flown,
-                    std::shared_ptr<const MotionPath> path) {
+LidarPlace place_of(const LidarScenario& lidar, std::int64_t start, std::shared_ptr<const MotionPath> path) {
   const Pose rig_from_lidar = lidar.rig_from_lidar();
-  const std::int64_t start = flown.start_ns;
   return {[path = std::move(path), rig_from_lidar, start](std::int64_t stamp_ns) {
             return path->at(double(stamp_ns - start) * 1e-9) * rig_from_lidar;
           },
@@ -42,17 +40,17 @@ LidarPlace place_of(const LidarScenario& lidar, const Scenario& flown,
 
 }  // namespace
 
-std::vector<std::unique_ptr<Sensor>> make_lidar_sensors(const Scenario& flown, const std::shared_ptr<LidarWorld>& world,
-                                                        const Medium& medium, std::uint64_t noise_seed,
-                                                        std::int64_t last_ns,
+std::vector<std::unique_ptr<Sensor>> make_lidar_sensors(const std::vector<LidarScenario>& lidars,
+                                                        const std::shared_ptr<LidarWorld>& world, const Medium& medium,
+                                                        std::uint64_t noise_seed, std::int64_t start_ns, std::int64_t last_ns,
                                                         std::shared_ptr<const MotionPath> path,
                                                         const RobotReadings& robots, int threads) {
   std::vector<std::unique_ptr<Sensor>> sensors;
-  for (const LidarScenario& lidar : flown.lidars) {
+  for (const LidarScenario& lidar : lidars) {
     const std::uint64_t seed = RandomStream(noise_seed, "lidars/" + lidar.name).next();
     sensors.push_back(std::make_unique<LidarSensor>(
-        std::make_unique<Lidar>(lidar.spec(), world, place_of(lidar, flown, robots.path_of(lidar.ride, path)), medium, seed, threads),
-        int(sensors.size()), robots.end_of(lidar.ride, flown.start_ns, last_ns)));
+        std::make_unique<Lidar>(lidar.spec(), world, place_of(lidar, start_ns, robots.path_of(lidar.ride, path)), medium, seed, threads),
+        int(sensors.size()), robots.end_of(lidar.ride, start_ns, last_ns)));
   }
   return sensors;
 }

@@ -15,9 +15,9 @@
 
 namespace rubble {
 
-// What a sensor asks, of a mission. path: of its carrier; world: null where it casts no rays. All must outlive the site.
+// What a sensor asks, of a mission. path: of its carrier, from start_ns on; world: null where it casts no rays. All must outlive the site.
 // forces: as SensorSite::contact_force.
-SensorSite make_sensor_site(const Scenario& scenario, const SensorItem& sensor, const MotionPath& path, LidarWorld* world,
+SensorSite make_sensor_site(const Scenario& scenario, std::int64_t start_ns, const SensorItem& sensor, const MotionPath& path, LidarWorld* world,
                             std::function<double(const std::vector<std::string>&, double, double)> forces = {});
 
 // Of the sensor of that number in the scenario; robots: must outlive it.
@@ -26,10 +26,10 @@ std::function<double(const std::vector<std::string>&, double, double)> forces_of
 // Whether any of them asks what rays meet.
 bool needs_rays(const std::vector<SensorItem>& sensors);
 
-// Readings until last_ns.
+// Readings from start_ns until last_ns.
 class ReadingSensor : public Sensor {
  public:
-  ReadingSensor(const Scenario& flown, int number, std::uint64_t noise_seed, std::int64_t last_ns,
+  ReadingSensor(const Scenario& scenario, int number, std::uint64_t noise_seed, std::int64_t start_ns, std::int64_t last_ns,
                 std::shared_ptr<const MotionPath> path, std::shared_ptr<LidarWorld> world,
                 std::function<double(const std::vector<std::string>&, double, double)> forces);
 

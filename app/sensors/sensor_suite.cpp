@@ -13,26 +13,26 @@
 namespace rubble {
 namespace {
 
-CameraSpec spec_of(const Scenario& flown, const MountedCamera& mounted, int number, const SensorBegin& begin,
+CameraSpec spec_of(const Scenario& scenario, const MountedCamera& mounted, int number, const SensorBegin& begin,
                    int threads) {
-  CameraSpec spec = build_camera(flown, mounted, threads);
+  CameraSpec spec = build_camera(scenario, mounted, threads);
   spec.number = number;
-  spec.seed = camera_seed(flown, mounted, begin.noise_seed);
+  spec.seed = camera_seed(mounted, begin.noise_seed);
   return spec;
 }
 
 // A camera on its mount.
 class CameraSensor : public Sensor {
  public:
-  CameraSensor(const Scenario& flown, const MountedCamera& mounted, int number,
+  CameraSensor(const Scenario& scenario, const MountedCamera& mounted, int number,
                const RigFlight& flight, const SensorBegin& begin, Renderer& renderer, int threads)
       : flight_(flight.cameras[std::size_t(number)]),
         mounted_(mounted),
         number_(number),
         first_frame_(begin.frames.empty() ? 0 : begin.frames[std::size_t(number)]),
-        start_ns_(flown.start_ns),
+        start_ns_(flight.start_ns),
         path_(flight.carriers[std::size_t(number)]),
-        camera_(renderer, spec_of(flown, mounted, number, begin, threads), flight_) {}
+        camera_(renderer, spec_of(scenario, mounted, number, begin, threads), flight_) {}
 
   int frames() const { return camera_.frames(); }
   std::int64_t last_stamp() const { return flight_.stamps_ns.back(); }
@@ -68,12 +68,12 @@ class CameraSensor : public Sensor {
 // As long as any camera has frames.
 class ImuSensor : public Sensor {
  public:
-  ImuSensor(const ImuScenario& imu, int number, const Scenario& flown, std::uint64_t noise_seed,
+  ImuSensor(const ImuScenario& imu, int number, double gravity, std::uint64_t noise_seed, std::int64_t start_ns,
             std::int64_t last_ns, std::shared_ptr<const MotionPath> path)
       : number_(number),
         last_ns_(last_ns),
         path_(std::move(path)),
-        imu_(build_imu(flown, imu, noise_seed, *path_)) {}
+        imu_(build_imu(imu, gravity, noise_seed, start_ns, *path_)) {}
 
   std::optional<std::int64_t> next_stamp() const override {
     const std::int64_t stamp = imu_.next_stamp();
@@ -112,13 +112,13 @@ class RobotSensor : public Sensor {
 
 }  // namespace
 
-SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const SensorBegin& begin,
+SensorSuite::SensorSuite(const Scenario& scenario, const RigFlight& flight, const SensorBegin& begin,
                          const Scene& scene, Renderer& renderer, int threads,
                          const RobotReadings& robots) {
   std::vector<std::unique_ptr<Sensor>> cameras;
   std::int64_t last_ns = 0;
-  for (const MountedCamera& mounted : all_cameras(flown)) {
-    auto camera = std::make_unique<CameraSensor>(flown, mounted, int(cameras.size()), flight, begin,
+  for (const MountedCamera& mounted : scenario.cameras) {
+    auto camera = std::make_unique<CameraSensor>(scenario, mounted, int(cameras.size()), flight, begin,
                                                  renderer, threads);
     frames_.push_back(camera->frames());
     last_ns = std::max(last_ns, camera->last_stamp());
@@ -127,17 +127,17 @@ SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const S
   for (const std::vector<RobotSample>& samples : robots.samples)
     sensors_.push_back(std::make_unique<RobotSensor>(samples, last_ns));
   int number = 0;
-  for (const ImuScenario& imu : all_imus(flown))
-    sensors_.push_back(std::make_unique<ImuSensor>(imu, number++, flown, begin.noise_seed,
-                                                   robots.end_of(imu.ride, flown.start_ns, last_ns),
+  for (const ImuScenario& imu : scenario.imus)
+    sensors_.push_back(std::make_unique<ImuSensor>(imu, number++, scenario.settle.gravity, begin.noise_seed, flight.start_ns,
+                                                   robots.end_of(imu.ride, flight.start_ns, last_ns),
                                                    robots.path_of(imu.ride, flight.path)));
-  const auto world = flown.lidars.empty() && !needs_rays(flown.sensors) ? nullptr : std::make_shared<LidarWorld>(scene);
-  for (auto& lidar : make_lidar_sensors(flown, world, renderer.medium(), begin.noise_seed, last_ns,
+  const auto world = scenario.lidars.empty() && !needs_rays(scenario.sensors) ? nullptr : std::make_shared<LidarWorld>(scene);
+  for (auto& lidar : make_lidar_sensors(scenario.lidars, world, renderer.medium(), begin.noise_seed, flight.start_ns, last_ns,
                                         flight.path, robots, threads))
     sensors_.push_back(std::move(lidar));
-  for (std::size_t i = 0; i < flown.sensors.size(); ++i) {
-    const Carrier& ride = flown.sensors[i].ride;
-    sensors_.push_back(std::make_unique<ReadingSensor>(flown, int(i), begin.noise_seed, robots.end_of(ride, flown.start_ns, last_ns),
+  for (std::size_t i = 0; i < scenario.sensors.size(); ++i) {
+    const Carrier& ride = scenario.sensors[i].ride;
+    sensors_.push_back(std::make_unique<ReadingSensor>(scenario, int(i), begin.noise_seed, flight.start_ns, robots.end_of(ride, flight.start_ns, last_ns),
                                                        robots.path_of(ride, flight.path), world, forces_of(robots, i)));
   }
   for (auto& camera : cameras) sensors_.push_back(std::move(camera));

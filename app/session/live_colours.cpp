@@ -23,7 +23,7 @@ RenderOptions render_options(int threads) {
 CameraSpec build_eye(const Scenario& scenario, const MountedCamera& mounted, std::size_t number, int threads) {
   CameraSpec spec = build_camera(scenario, mounted, threads);
   spec.number = int(number);
-  spec.seed = camera_seed(scenario, mounted, scenario.seed);
+  spec.seed = camera_seed(mounted, scenario.seed);
   spec.channels.clear();
   spec.baseline = 0;
   spec.depth_sensor.type = DepthSensorType::none;
@@ -88,10 +88,10 @@ LiveColours::LiveColours(const Scene& scene, const LiveColoursOptions& options)
       renderer_(gl_, scene, render_options(options.threads), options.progress) {}
 
 std::unique_ptr<LiveSensor> LiveColours::make_eye(const LiveSensorParts& parts, std::size_t number) {
-  const MountedCamera mounted = all_cameras(parts.scenario).at(number);
+  const MountedCamera& mounted = parts.scenario.cameras.at(number);
   return std::make_unique<Eye>(renderer_, parts.scenario, mounted,
                                build_eye(parts.scenario, mounted, number, parts.threads),
-                               parts.history.way_of(mounted.ride, camera_key(parts.scenario, mounted)));
+                               parts.history.way_of(mounted.ride, mounted.key()));
 }
 
 }  // namespace rubble

@@ -28,7 +28,7 @@ class LiveColours {
   // renderer. Throws RunError as GlContext and Renderer do.
   LiveColours(const Scene& scene, const LiveColoursOptions& options);
 
-  // Frames of colour alone. number: among all_cameras(). This must outlive the sensor. Throws InputError where no robot
+  // Frames of colour alone. number: in the scenario's list. This must outlive the sensor. Throws InputError where no robot
   // carries it.
   std::unique_ptr<LiveSensor> make_eye(const LiveSensorParts& parts, std::size_t number);
 

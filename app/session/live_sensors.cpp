@@ -21,7 +21,7 @@ class LiveImu : public LiveSensor {
       : way_(std::move(way)),
         number_(number),
         half_ns_(std::int64_t(std::ceil(0.5e9 / imu.model.rate_hz))),
-        imu_(build_imu(scenario, imu, scenario.seed, *way_)) {}
+        imu_(build_imu(imu, scenario.settle.gravity, scenario.seed, scenario.start_ns, *way_)) {}
 
   Needs needs() const override {
     const std::int64_t stamp = imu_.next_stamp();
@@ -78,7 +78,7 @@ class LiveReading : public LiveSensor {
         start_ns_(parts.scenario.start_ns),
         way_(std::move(way)),
         world_(parts.world),
-        site_(make_sensor_site(parts.scenario, item_, *way_, world_.get(), forces_of(parts.history.ways(), number))),
+        site_(make_sensor_site(parts.scenario, parts.scenario.start_ns, item_, *way_, world_.get(), forces_of(parts.history.ways(), number))),
         meter_(item_.start(site_, parts.scenario.seed)) {}
 
   Needs needs() const override {
@@ -110,7 +110,7 @@ class LiveDepth : public LiveSensor {
         start_ns_(parts.scenario.start_ns),
         rate_hz_(camera.rate_hz.value_or(parts.scenario.trajectory.rate_hz)),
         way_(std::move(way)),
-        depth_(camera, camera_key(parts.scenario, camera), parts.world, parts.threads) {}
+        depth_(camera, parts.world, parts.threads) {}
 
   Needs needs() const override { return {stamp_ns(), stamp_ns(), stamp_ns()}; }
   Sample take() override {
@@ -138,9 +138,8 @@ class LiveDepth : public LiveSensor {
 }  // namespace
 
 std::unique_ptr<LiveSensor> make_live_imu(const LiveSensorParts& parts, std::size_t number) {
-  const ImuScenario imu = all_imus(parts.scenario).at(number);
-  return std::make_unique<LiveImu>(parts.scenario, imu, int(number),
-                                   parts.history.way_of(imu.ride, parts.scenario.imus.empty() ? "imu" : "imus." + imu.name));
+  const ImuScenario& imu = parts.scenario.imus.at(number);
+  return std::make_unique<LiveImu>(parts.scenario, imu, int(number), parts.history.way_of(imu.ride, imu.key()));
 }
 
 std::unique_ptr<LiveSensor> make_live_reading(const LiveSensorParts& parts, std::size_t number) {
@@ -154,9 +153,8 @@ std::unique_ptr<LiveSensor> make_live_lidar(const LiveSensorParts& parts, std::s
 }
 
 std::unique_ptr<LiveSensor> make_live_depth(const LiveSensorParts& parts, std::size_t number) {
-  const MountedCamera camera = all_cameras(parts.scenario).at(number);
-  return std::make_unique<LiveDepth>(parts, camera, int(number),
-                                     parts.history.way_of(camera.ride, camera_key(parts.scenario, camera)));
+  const MountedCamera& camera = parts.scenario.cameras.at(number);
+  return std::make_unique<LiveDepth>(parts, camera, int(number), parts.history.way_of(camera.ride, camera.key()));
 }
 
 }  // namespace rubble

@@ -35,7 +35,7 @@ struct LiveSensorParts {
   int threads = 1;
 };
 
-// number: among all_imus(), the scenario's sensors and LiDARs, all_cameras(). All throw InputError where no robot carries it.
+// number: in the scenario's list. All throw InputError where no robot carries it.
 std::unique_ptr<LiveSensor> make_live_imu(const LiveSensorParts& parts, std::size_t number);
 std::unique_ptr<LiveSensor> make_live_reading(const LiveSensorParts& parts, std::size_t number);
 std::unique_ptr<LiveSensor> make_live_lidar(const LiveSensorParts& parts, std::size_t number);

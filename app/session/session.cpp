@@ -97,11 +97,11 @@ void Session::make_sensors() {
     std::sort(list.begin(), list.end());
   };
   if (options_.observed) {
-    add(imus, find_carried(all_imus(scenario_), history_.ways()));
+    add(imus, find_carried(scenario_.imus, history_.ways()));
     add(lidars, find_carried(scenario_.lidars, history_.ways()));
     add(readings, find_carried(scenario_.sensors, history_.ways()));
   }
-  if (options_.depth) add(depths, find_carried(all_cameras(scenario_), history_.ways()));
+  if (options_.depth) add(depths, find_carried(scenario_.cameras, history_.ways()));
   const bool rays = !lidars.empty() || !depths.empty() || (!readings.empty() && needs_rays(scenario_.sensors));
   if (imus.empty() && readings.empty() && !rays && colours.empty()) return;
   Scene scene;

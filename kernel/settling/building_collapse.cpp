@@ -20,10 +20,9 @@ BuildingCollapse::BuildingCollapse(World& world, const Pile& pile, const SettleO
       motion_(pile.building.cause, pile.building.seed, options.step),
       step_length_(options.step) {
   const BuildingSpec& building = building_;
-  validate(building);
-  const Structure whole = build_building(building);
-  std::vector<SectionForces> before = check_stands(whole, options.gravity);
-  const Structure damaged = build_damaged(building, whole);
+  const auto built = pile.structures ? pile.structures : std::make_shared<const BuildingStructures>(build_structures(building));
+  const Structure& damaged = built->damaged;
+  const std::vector<SectionForces> before = check_stands(built->whole, options.gravity);
   std::vector<SectionForces> settled;  // of the bonds that are left
   for (const std::int32_t bond : damaged.from_bond) settled.push_back(before[bond]);
   CollapseOptions collapse;
@@ -105,12 +104,7 @@ void BuildingCollapse::after_step() {
 }
 
 std::vector<PieceType> make_building_types(const BuildingSpec& building) {
-  return make_damaged_building(building).types;
-}
-
-Structure make_damaged_building(const BuildingSpec& building) {
-  validate(building);
-  return build_damaged(building, build_building(building));
+  return build_structures(building).damaged.types;
 }
 
 }  // namespace rubble

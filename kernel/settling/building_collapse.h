@@ -45,7 +45,5 @@ class BuildingCollapse {
 // The types of a building's pieces, in their order: Pile::types must have them from its
 // building_first_type on.
 std::vector<PieceType> make_building_types(const BuildingSpec& building);
-// The building as its cause finds it. Its pieces are in the order in which a pile has them.
-Structure make_damaged_building(const BuildingSpec& building);
 
 }  // namespace rubble

@@ -128,6 +128,9 @@ TEST(RobotDrive, JointsGoWhereTheyAreAskedTo) {
   });
   const Scenario kept = driven.drive->scenario(driven.mission.scenario);
   EXPECT_EQ(kept.robots[0].drive.back().joints, (std::vector<double>{0.25, 0.5, 0.75, 0.5}));
+  Scenario drawn = driven.mission.scenario;
+  drawn.trajectory.rate_hz = 12;  // of the window
+  EXPECT_EQ(driven.drive->scenario(drawn).trajectory.rate_hz, driven.mission.scenario.trajectory.rate_hz);
   expect_same_bits(scratch, driven);
 }
 

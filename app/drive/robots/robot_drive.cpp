@@ -107,7 +107,7 @@ Scenario RobotDrive::scenario(const Scenario& camera) const {
   kept.robots[driven_].urdf = urdf;
   kept.robots[driven_].drive = kept_;
   kept.trajectory = {};
-  kept.trajectory.rate_hz = camera.trajectory.rate_hz;
+  kept.trajectory.rate_hz = mission_.scenario.trajectory.rate_hz;  // the window's rate is not the mission's
   kept.trajectory.ride = mission_.scenario.trajectory.ride;
   kept.robot_run.duration = double(std::max<std::int64_t>(1, session_->steps())) * session_->step_time();
   return kept;

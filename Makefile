@@ -81,6 +81,8 @@ site:
 	@tools/install_packages.sh tools/packages-site.txt
 	tools/make_site.py build/site_source
 	mkdocs build --strict --quiet
+	cmake --preset release >/dev/null && cmake --build --preset release --target rubble_public_headers
+	doxygen tools/Doxyfile
 
 # With the optional parts that publish over ROS; CMake looks for them anew.
 live: packages

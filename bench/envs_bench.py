@@ -37,7 +37,7 @@ def list_cases(threads, colour):
     if colour:
         yield "`VoidExplore`, depth and colour 128 x 128", VoidExplore(size=128, colour=True, max_steps=100, **options)
     yield "`CrawlerNav`", CrawlerNav(max_steps=10000, **options)
-    yield "`SnakeExplore`, depth 16 x 16", SnakeExplore(max_steps=10000, **options)
+    yield "`SnakeExplore`, depth 16 x 16", SnakeExplore(size=16, max_steps=10000, **options)
 
 
 def main():

@@ -3,10 +3,10 @@
 namespace rubble {
 
 StageClock::StageClock(World& world) : world_(world) {
-  world_.set_on_stage([this](StepStage stage) { begin(stage); });
+  world_.diagnostics().set_on_stage([this](StepStage stage) { begin(stage); });
 }
 
-StageClock::~StageClock() { world_.set_on_stage({}); }
+StageClock::~StageClock() { world_.diagnostics().set_on_stage({}); }
 
 void StageClock::begin(StepStage stage) {
   const auto now = std::chrono::steady_clock::now();

@@ -4,7 +4,7 @@
 #include <array>
 #include <chrono>
 
-#include "kernel/world/world.h"
+#include "kernel/world/world_diagnostics.h"
 
 namespace rubble {
 

@@ -11,11 +11,11 @@ set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 # Only what was asked for is built, not the tests.
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 
-set(share ${CMAKE_BINARY_DIR}/share)
+set(share ${PROJECT_BINARY_DIR}/share)
 add_custom_command(OUTPUT ${share}/rubble.lua
   COMMAND ${CMAKE_COMMAND} "-DPROGRAM=${CMAKE_CROSSCOMPILING_EMULATOR};$<TARGET_FILE:rubble>" -DOUTPUT=${share}
-    -P ${CMAKE_SOURCE_DIR}/cmake/WriteShare.cmake
-  DEPENDS rubble ${CMAKE_SOURCE_DIR}/cmake/WriteShare.cmake
+    -P ${PROJECT_SOURCE_DIR}/cmake/WriteShare.cmake
+  DEPENDS rubble ${PROJECT_SOURCE_DIR}/cmake/WriteShare.cmake
   COMMENT "Writing manual pages, completions and annotations" VERBATIM)
 add_custom_target(rubble_share ALL DEPENDS ${share}/rubble.lua)
 add_dependencies(program rubble_share)
@@ -23,7 +23,7 @@ add_dependencies(program rubble_share)
 set(data ${CMAKE_INSTALL_DATADIR}/rubble)
 install(TARGETS rubble RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 foreach(pack concrete residential parking bridge victims)
-  install(DIRECTORY ${CMAKE_BINARY_DIR}/assets/${pack} DESTINATION ${data}/assets)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/assets/${pack} DESTINATION ${data}/assets)
 endforeach()
 install(FILES assets/materials.lua DESTINATION ${data}/assets)
 install(DIRECTORY scripts DESTINATION ${data} PATTERN "*.golden.json" EXCLUDE)

@@ -5,7 +5,7 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
 set_property(GLOBAL PROPERTY USE_FOLDERS ON)
 
 # Warnings are errors for those who develop: the presets but `release`, and wherever CI is set. Another compiler
@@ -22,13 +22,13 @@ find_program(RUBBLE_CCACHE ccache)
 if(RUBBLE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   foreach(language C CXX)
     set(CMAKE_${language}_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
-      CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+      CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
       ${RUBBLE_CCACHE})
   endforeach()
 endif()
 
 add_library(rubble_options INTERFACE)
-target_include_directories(rubble_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_include_directories(rubble_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_link_libraries(rubble_options INTERFACE Threads::Threads)
 target_compile_options(rubble_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
@@ -128,7 +128,7 @@ function(rubble_rooms)
     get_target_property(folder ${target} SOURCE_DIR)
     foreach(source IN LISTS sources)
       cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder} OUTPUT_VARIABLE path)
-      cmake_path(IS_PREFIX CMAKE_BINARY_DIR ${path} generated)
+      cmake_path(IS_PREFIX PROJECT_BINARY_DIR ${path} generated)
       if(generated)
         continue()
       endif()
@@ -137,7 +137,7 @@ function(rubble_rooms)
         continue()
       endif()
       cmake_path(GET path PARENT_PATH room)
-      cmake_path(RELATIVE_PATH room BASE_DIRECTORY ${CMAKE_SOURCE_DIR} OUTPUT_VARIABLE room)
+      cmake_path(RELATIVE_PATH room BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE room)
       string(REPLACE "/" "_" room "${room}")
       set_source_files_properties(${path} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${room})
     endforeach()

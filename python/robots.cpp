@@ -8,6 +8,7 @@
 #include "kernel/robot/bundled.h"
 #include "kernel/robot/gaits.h"
 #include "kernel/robot/robot_run.h"
+#include "kernel/world/world_robots.h"
 #include "python/parts.h"
 #include "python/robot_commands.h"
 
@@ -71,7 +72,7 @@ class RobotWorld {
     }
   }
 
-  py::dict state() const { return describe_state(model_, run_.world().robot_state(0), run_.world().time()); }
+  py::dict state() const { return describe_state(model_, run_.world().robots().state(0), run_.world().time()); }
   int joints() const { return int(model_.joints.size()); }
   std::vector<std::string> link_names() const { return link_names_of(model_); }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/control/robot_control.h"
+#include "kernel/world/world_robots.h"
 #include "python/parts.h"
 #include "python/robot_commands.h"
 
@@ -72,7 +73,7 @@ class MissionSession {
 
   py::dict state(const std::string& robot) const {
     const std::size_t i = find(robot);
-    return describe_state(session_->robots()[i].model, session_->world().robot_state(int(i)), time());
+    return describe_state(session_->robots()[i].model, session_->world().robots().state(int(i)), time());
   }
 
   double time() const { return session_->world().time(); }

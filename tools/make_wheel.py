@@ -25,6 +25,9 @@ Generator: rubble
 Root-Is-Purelib: false
 Tag: {tag}
 """
+ENTRY_POINTS = """[gymnasium.envs]
+__root__ = rubble_gymnasium:register
+"""
 
 
 def files_below(folder, inside, endings):
@@ -48,6 +51,7 @@ def main():
     info = f"rubble-{version}.dist-info"
     path = os.path.join(out, f"rubble-{version}-{tag}.whl")
     files = files_below(package, "rubble", (".py", ".pyi", ".so", "py.typed"))
+    files.append(("rubble_gymnasium.py", os.path.join(os.path.dirname(package.rstrip("/")), "rubble_gymnasium.py")))
     files += files_below(assets, "rubble/assets", (".lua", ".obj", ".mtl"))
     records = []
     with zipfile.ZipFile(path + ".part", "w", zipfile.ZIP_DEFLATED) as wheel:
@@ -64,6 +68,7 @@ def main():
                 add(name, file.read())
         add(info + "/METADATA", METADATA.format(version=version).encode())
         add(info + "/WHEEL", WHEEL.format(tag=tag).encode())
+        add(info + "/entry_points.txt", ENTRY_POINTS.encode())
         records.append(f"{info}/RECORD,,")
         add(info + "/RECORD", ("\n".join(records) + "\n").encode())
     os.replace(path + ".part", path)

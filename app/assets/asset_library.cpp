@@ -245,6 +245,7 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
   try {
     add_terrain(mission.scenario.pile.terrain, {fs::path(mission.script.path).parent_path().string()}, library);
     add_robot_files(mission.scenario, {fs::path(mission.script.path).parent_path().string()}, library);
+    add_snapshot(mission.scenario.pile, {fs::path(mission.script.path).parent_path().string()}, library);
     add_building(building_of(mission.scenario.pile, mission.scenario.seed), mission.scenario.pile.terrain.position, library);
   } catch (const InputError& error) {
     std::vector<Diagnostic> mistakes = error.diagnostics();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct AssetLibrary {
   std::vector<std::string> warnings;                     // e.g. a mesh that is not closed
   std::vector<std::string> folders;                      // of the packs, absolute
   std::vector<RobotContent> robots;                      // of the mission's URDF files
+  std::optional<SnapshotContent> snapshot;               // that settling goes on from; not given: from the start
+  std::string snapshot_file;                             // its path
   std::vector<std::string> robot_files;                  // their paths, one per robot; "": a bundled robot
   int building_first_type = 0;                           // of the building's pieces, if there is one
   std::shared_ptr<const BuildingStructures> structures;  // of the building; null: there is none
@@ -55,6 +58,9 @@ void add_robot_files(const Scenario& scenario, const std::vector<std::string>& f
 // The same of a provenance. Throws InputError, too, where one has another content than the provenance says. That of an
 // older program does not say.
 void recall_robots(const Provenance& provenance, const std::vector<std::string>& folders, AssetLibrary& library);
+// The same two of the mission's snapshot (pile.snapshot).
+void add_snapshot(const PileScenario& pile, const std::vector<std::string>& folders, AssetLibrary& library);
+void recall_snapshot(const Provenance& provenance, const std::vector<std::string>& folders, AssetLibrary& library);
 // One asset with all that it refers to. Throws InputError for a file that cannot be read.
 struct LoadedAsset {
   PieceType type;

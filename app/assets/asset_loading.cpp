@@ -246,20 +246,21 @@ void add_terrain(const TerrainScenario& spec, const std::vector<std::string>& fo
 
 namespace {
 
-// In one of the folders, under its whole name or its last part.
-std::string find_urdf(const std::string& name, const std::vector<std::string>& folders, const std::string& key) {
+// In one of the folders, under its whole name or its last part. kind: of a file, as "a URDF file".
+std::string find_named_file(const std::string& name, const std::vector<std::string>& folders, const std::string& key,
+                            const std::string& kind) {
   namespace fs = std::filesystem;
   std::string looked;
   std::error_code failed;
   for (const std::string& folder : folders)
     for (const fs::path& tried : {fs::path(folder) / name, fs::path(folder) / fs::path(name).filename()}) {
       if (fs::is_regular_file(tried, failed)) {
-        check_may_read(tried.string(), {"", 0, key + ".urdf", "", "", "", ""});
+        check_may_read(tried.string(), {"", 0, key, "", "", "", ""});
         return fs::absolute(tried).lexically_normal().string();
       }
       looked += (looked.empty() ? "" : ", ") + tried.string();
     }
-  throw InputError({"", 0, key + ".urdf", "no such file", "a URDF file", "\"" + name + "\"",
+  throw InputError({"", 0, key, "no such file", kind, "\"" + name + "\"",
                     looked.empty() ? "its folder is not known: name it with --assets, or `assets` in Python"
                                    : "looked for " + looked});
 }
@@ -280,13 +281,20 @@ std::string hash_urdf(const std::string& path) {
 
 }  // namespace
 
+void add_snapshot(const PileScenario& pile, const std::vector<std::string>& folders, AssetLibrary& library) {
+  if (!pile.snapshot) return;
+  library.snapshot_file = find_named_file(*pile.snapshot, folders, "pile.snapshot", "a file that `rubble inspect` saved");
+  library.snapshot = SnapshotContent{*pile.snapshot, sha256_of_file(library.snapshot_file)};
+  library.folders.push_back(std::filesystem::path(library.snapshot_file).parent_path().string());
+}
+
 void add_robot_files(const Scenario& scenario, const std::vector<std::string>& folders,
                      AssetLibrary& library) {
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
     const RobotItem& robot = scenario.robots[i];
     library.robot_files.emplace_back();
     if (robot.urdf.empty()) continue;
-    const std::string path = find_urdf(robot.urdf, folders, "robots[" + std::to_string(i + 1) + "]");
+    const std::string path = find_named_file(robot.urdf, folders, "robots[" + std::to_string(i + 1) + "].urdf", "a URDF file");
     library.robot_files.back() = path;
     library.robots.push_back({robot.urdf, hash_urdf(path)});
     library.folders.push_back(std::filesystem::path(path).parent_path().string());

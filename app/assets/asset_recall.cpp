@@ -175,6 +175,16 @@ AssetLibrary load_assets(const Provenance& provenance, const std::vector<std::st
   return library;
 }
 
+void recall_snapshot(const Provenance& provenance, const std::vector<std::string>& folders, AssetLibrary& library) {
+  const Provenance& pile = provenance.pile_from ? *provenance.pile_from : provenance;
+  if (!pile.snapshot) return;
+  add_snapshot(stated_scenario(pile).pile, folders, library);
+  const std::string found = library.snapshot ? library.snapshot->sha256 : "none";
+  if (found != pile.snapshot->sha256)
+    throw InputError({pile.script.path, 0, "pile.snapshot", "the file \"" + pile.snapshot->file + "\" has changed",
+                      "the content " + pile.snapshot->sha256, found, "name the folder of the file as it was with --assets"});
+}
+
 void recall_robots(const Provenance& provenance, const std::vector<std::string>& folders, AssetLibrary& library) {
   add_robot_files(stated_scenario(provenance), folders, library);
   for (std::size_t i = 0; i < provenance.robots.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cstdint>
+#include <cstdio>
 
 namespace rubble {
 
@@ -42,6 +43,22 @@ void add_device_option(CommandLine& line, int& device) {
           "$RUBBLE_EGL_DEVICE, or the first device that works, hardware before software")
       .metavar("N")
       .between(0, 1000);
+}
+
+void add_size_option(CommandLine& line, int& width, int& height) {
+  // "480x360", both within what a camera may have.
+  const auto read = [&width, &height](const std::string& text) -> std::string {
+    int w = 0, h = 0, end = 0;
+    const int found = std::sscanf(text.c_str(), "%dx%d%n", &w, &h, &end);
+    const bool whole = found == 2 && std::size_t(end) == text.size();
+    if (!whole || w < 16 || h < 16 || w > 8192 || h > 8192)
+      return "expected WIDTHxHEIGHT from 16x16 to 8192x8192, found " + text;
+    width = w, height = h;
+    return "";
+  };
+  line.add_read("--size", read, "Size of the colour image")
+      .shows_default_text(std::to_string(width) + "x" + std::to_string(height))
+      .metavar("WxH");
 }
 
 void add_quiet_option(CommandLine& line, bool& quiet) {

@@ -20,6 +20,9 @@ void add_threads_option(CommandLine& line, int& threads);
 
 void add_device_option(CommandLine& line, int& device);
 
+// Of the image that a window shows; both must outlive the parsing and hold the default.
+void add_size_option(CommandLine& line, int& width, int& height);
+
 void add_quiet_option(CommandLine& line, bool& quiet);
 
 // Where packs of a run may be now.

@@ -1,5 +1,4 @@
 // `rubble drive`: the mission's pile, flown through by hand in a window (docs/how_to/drive.md).
-#include <cstdio>
 #include <memory>
 
 #include "app/command_line/command.h"
@@ -9,27 +8,11 @@
 namespace rubble {
 namespace {
 
-// "480x360", both within what a camera may have.
-std::string read_size(const std::string& text, DriveRequest& request) {
-  int width = 0, height = 0, end = 0;
-  const int read = std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &end);
-  const bool whole = read == 2 && std::size_t(end) == text.size();
-  if (!whole || width < 16 || height < 16 || width > 8192 || height > 8192)
-    return "expected WIDTHxHEIGHT from 16x16 to 8192x8192, found " + text;
-  request.width = width;
-  request.height = height;
-  return "";
-}
-
 Action declare_drive(CommandLine& line) {
   const auto request = std::make_shared<DriveRequest>();
   add_mission_options(line, request->of);
   add_seed_option(line, request->of);
-  line.add_read(
-          "--size", [request](const std::string& text) { return read_size(text, *request); },
-          "Size of the colour image")
-      .shows_default_text(std::to_string(request->width) + "x" + std::to_string(request->height))
-      .metavar("WxH");
+  add_size_option(line, request->width, request->height);
   line.add("--steps", request->steps, "Number of steps after which the drive ends")
       .shows_default_text("none")
       .between(0, 1000000000);

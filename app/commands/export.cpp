@@ -4,13 +4,14 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/control/robot_control.h"
 #include "app/mission/finished_run.h"
-#include "app/scene/build_scene.h"
+#include "app/simulators/build_sim_scene.h"
 #include "app/support/print.h"
 #include "app/support/progress.h"
 #include "io/base/atomic_file.h"
 #include "io/base/remove_files.h"
-#include "io/mesh/pile_export.h"
+#include "io/scenes/pile_export.h"
 
 namespace rubble {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 struct ExportRequest {
   std::vector<std::string> formats;  // --format, of mesh_formats(); empty: all
   std::string out;                   // --out; empty: `export` in the folder of the run
+  std::string dynamic = "none";      // --dynamic: the pieces that may move, parse_dynamic()
   bool force = false;                // --force
 };
 
@@ -42,19 +44,42 @@ void prepare(const std::string& out, bool force) {
       if (!format.is_folder) files.push_back(name);
       if (!format.is_folder || !force) continue;
       for (const std::string& file : list_plain_files(out, name))
-        if (is_sdf_file(file.substr(name.size() + 1))) files.push_back(file);
+        if (is_scene_file(file.substr(name.size() + 1))) files.push_back(file);
     }
   prepare_output_folder(out, force, files);
   remove_empty_parents(out, files);
 }
 
+// Of meshes no more than the pile is needed, also where the robots' files are gone.
+BuiltScene build_model(const FolderRequest& request, const FinishedRun& saved, const std::vector<std::string>& formats,
+                       const DynamicChoice& dynamic, ResolvedMission& mission, PileState& pile) {
+  BuiltScene built;
+  RunContext context(request.options);
+  if (!needs_scene(formats)) {
+    mission.assets = load_assets_of(saved, request.asset_packs);
+    pile = load_pile_of(saved, mission.assets);
+    built.model = build_mesh_model(mission.assets, pile, formats, context.threads());
+    return built;
+  }
+  std::vector<std::string> folders = request.asset_packs;
+  folders.insert(folders.end(), saved.manifest.pack_folders.begin(), saved.manifest.pack_folders.end());
+  mission = resolve_mission(saved.manifest.provenance, folders, context);
+  pile = load_pile_of(saved, mission.assets);
+  const std::vector<MissionRobot> robots = with_lines_of_script(mission, [&] { return make_robots(mission, context); });
+  built = build_sim_scene(mission, pile, robots, dynamic, context.threads());
+  for (const std::string& warning : context.warnings) print_err("warning: %s\n", warning.c_str());
+  return built;
+}
+
 ExitCode export_finished_pile(const FolderRequest& request, const ExportRequest& to) {
   const std::vector<MeshFormat> formats = choose_formats(to.formats);
+  const DynamicChoice dynamic = parse_dynamic(to.dynamic, "--dynamic");
+  std::vector<std::string> names;
+  for (const MeshFormat& format : formats) names.push_back(format.name);
   const FinishedRun saved = open_finished_run(request.folder);
-  const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
-  const PileState pile = load_pile_of(saved, assets);
-  PileModel model = build_pile_model(assets, pile);
-  model.gravity = stated_scenario(saved.manifest.provenance).settle.gravity;
+  ResolvedMission mission;
+  PileState pile;
+  const BuiltScene built = build_model(request, saved, names, dynamic, mission, pile);
   const std::string out = output_folder_of(to.out, request.folder, "export");
   prepare(out, to.force);
   Progress progress(choose_progress_style(request.options.quiet));
@@ -62,10 +87,11 @@ ExitCode export_finished_pile(const FolderRequest& request, const ExportRequest&
   std::size_t files = 0;
   for (std::size_t i = 0; i < formats.size(); ++i) {
     progress.update(double(i) / double(formats.size()), formats[i].name);
-    files += export_pile(model, formats[i].name, out).size();
+    files += export_pile(built.model, formats[i].name, out).size();
   }
-  progress.finish(std::to_string(model.pieces.size()) + " pieces, " + std::to_string(files) +
+  progress.finish(std::to_string(built.model.pile.pieces.size()) + " pieces, " + std::to_string(files) +
                   " files and folders");
+  for (const std::string& note : list_notes(built, names)) print_err("note: %s\n", note.c_str());
   print_out("%s\n", out.c_str());
   return ExitCode::done;
 }
@@ -82,6 +108,10 @@ Action declare_export(CommandLine& line) {
   line.add("--out", request->out, "Output folder")
       .shows_default_text("FOLDER/export")
       .metavar("DIR");
+  line.add("--dynamic", request->dynamic,
+           "Pieces that may move in sdf, mjcf, usd and urdf: all, none, near=X,Y,R (an upright cylinder) or near=X,Y,Z,R "
+           "(a sphere); metres. All others are fixed")
+      .metavar("CHOICE");
   line.add_flag("--force", request->force, "Replace the files of an earlier export");
   return [of, request] { return export_finished_pile(*of, *request); };
 }
@@ -89,7 +119,7 @@ Action declare_export(CommandLine& line) {
 }  // namespace
 
 Command export_command() {
-  return {"", "export", "Export the pile of a finished run as STL, PLY, OBJ, glTF or SDF",
+  return {"", "export", "Export the pile of a finished run as meshes, or as a scene for MuJoCo, Gazebo, Drake, USD or Bullet",
           declare_export};
 }
 

@@ -39,6 +39,8 @@ const std::map<SDL_Scancode, DriveAction> kActionKeys{
     {SDL_SCANCODE_PERIOD, DriveAction::one_step}, {SDL_SCANCODE_COMMA, DriveAction::slow},
     {SDL_SCANCODE_V, DriveAction::hulls},      {SDL_SCANCODE_C, DriveAction::contacts},
     {SDL_SCANCODE_G, DriveAction::frames},     {SDL_SCANCODE_B, DriveAction::scans},
+    {SDL_SCANCODE_O, DriveAction::cameras},    {SDL_SCANCODE_M, DriveAction::voids},
+    {SDL_SCANCODE_K, DriveAction::moment},
     {SDL_SCANCODE_F1, DriveAction::help},      {SDL_SCANCODE_P, DriveAction::picture},
     {SDL_SCANCODE_ESCAPE, DriveAction::quit},
 };
@@ -99,6 +101,7 @@ const std::vector<KeyHelp>& all_key_help() {
       {"one step; slow motion", "period; comma", ""},
       {"hulls, contacts", "V, C", ""},
       {"links, LiDAR echoes", "G, B", ""},
+      {"map of voids", "M", ""},
       {"save a picture", "P", "press the left stick"},
       {"this help", "H or F1", "X"},
       {"quit", "escape", "back"},
@@ -107,6 +110,8 @@ const std::vector<KeyHelp>& all_key_help() {
 }
 
 struct Controls::State {
+  LeftButton left = LeftButton::looks;
+  Pointer pointer;
   std::set<SDL_Scancode> held;
   Vec3 look_deg;
   std::vector<DriveAction> actions;
@@ -140,7 +145,7 @@ void Controls::State::press(SDL_Scancode key) {
   if (action != kActionKeys.end()) actions.push_back(action->second);
 }
 
-Controls::Controls() : state_(std::make_unique<State>()) {}
+Controls::Controls(LeftButton left) : state_(std::make_unique<State>()) { state_->left = left; }
 
 Controls::~Controls() {
   for (const auto& [id, pad] : state_->pads) SDL_GameControllerClose(pad);
@@ -158,8 +163,16 @@ std::string Controls::handle(const SDL_Event& event) {
     case SDL_KEYUP:
       s.held.erase(event.key.keysym.scancode);
       break;
+    case SDL_MOUSEBUTTONDOWN:
+    case SDL_MOUSEBUTTONUP:
+      if (event.button.button != SDL_BUTTON_LEFT) break;
+      s.pointer.x = event.button.x, s.pointer.y = event.button.y;
+      s.pointer.pressed = event.type == SDL_MOUSEBUTTONDOWN;
+      if (s.pointer.pressed) s.pointer.press_x = s.pointer.x, s.pointer.press_y = s.pointer.y;
+      break;
     case SDL_MOUSEMOTION:
-      if (event.motion.state & SDL_BUTTON_LMASK)
+      s.pointer.x = event.motion.x, s.pointer.y = event.motion.y;
+      if (event.motion.state & (s.left == LeftButton::looks ? SDL_BUTTON_LMASK : SDL_BUTTON_RMASK))
         s.look_deg += Vec3(0, event.motion.yrel, -event.motion.xrel) * kMouseDegrees;
       break;
     case SDL_MOUSEWHEEL:
@@ -202,7 +215,12 @@ DriveInput Controls::take() {
   return input;
 }
 
-void Controls::release_all() { state_->held.clear(); }
+void Controls::release_all() {
+  state_->held.clear();
+  state_->pointer.pressed = false;
+}
+
+const Pointer& Controls::pointer() const { return state_->pointer; }
 
 int Controls::gamepads() const { return int(state_->pads.size()); }
 

@@ -22,9 +22,19 @@ struct KeyHelp {
 };
 const std::vector<KeyHelp>& all_key_help();
 
+// Where the mouse is in the picture; unit: pixel.
+struct Pointer {
+  double x = 0, y = 0;
+  bool pressed = false;            // its left button
+  double press_x = 0, press_y = 0;  // where that went down last
+};
+
+// What the left button does: turn the camera, or pull at things while the right one turns it.
+enum class LeftButton { looks, pulls };
+
 class Controls {
  public:
-  Controls();
+  explicit Controls(LeftButton left = LeftButton::looks);
   ~Controls();
   Controls(const Controls&) = delete;
   Controls& operator=(const Controls&) = delete;
@@ -36,6 +46,7 @@ class Controls {
   DriveInput take();
   // Lets go of all keys, as when the window loses the keyboard.
   void release_all();
+  const Pointer& pointer() const;
   int gamepads() const;
 
  private:

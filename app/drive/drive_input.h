@@ -26,6 +26,9 @@ enum class DriveAction {
   contacts,   // likewise, with their forces
   frames,     // likewise, of the robots' links
   scans,      // likewise, what LiDARs measured last
+  cameras,    // likewise, what cameras have in view
+  voids,      // likewise, the map of voids
+  moment,     // save this moment as a mission
   help,
   picture,    // save what the window shows
   quit,

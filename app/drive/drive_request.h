@@ -16,6 +16,9 @@ struct DriveRequest {
   std::string robot;             // --robot: which of the mission's is driven; empty: the first
 };
 
+// The mission's world to be looked at, stopped and pulled at in a window: docs/how_to/inspect.md. Only `of`, size and steps
+// (pictures) count.
+ExitCode inspect_mission(const DriveRequest& request);
 // The mission's pile to be driven through in a window: docs/how_to/drive.md.
 ExitCode drive_mission(const DriveRequest& request);
 

@@ -67,6 +67,8 @@ bool DriveSession::stay() {
 void DriveSession::enter(std::optional<std::uint64_t> seed) {
   window_.set_title("rubble drive: the pile settles");
   camera_.reset();
+  voids_.reset();
+  choice_.voids = false;
   world_.reset();
   world_ = make_drive_world(request_, seed, context_, [this] { return stay(); });
   if (!world_->pile.settled) say("some pieces still moved when the time limit came");
@@ -76,6 +78,7 @@ void DriveSession::enter(std::optional<std::uint64_t> seed) {
   map_frame_ = frame_map(world_->pile, world_->entry.position, request_.height);
   map_ = draw_height_map(world_->queries(), map_frame_, world_->threads);
   overlay_ = std::make_unique<Overlay>(world_->assets.types);
+  voids_ = std::make_unique<VoidSurvey>(world_->scenario.voids, world_->assets);
   scan_ = {};
   if (link_) link_->enter(*world_);
   picture_.track.clear();
@@ -242,6 +245,13 @@ void DriveSession::act(DriveAction action) {
       if (!world_->robots || !link_) return say("echoes are those of scans that are published: a robot with a LiDAR, and --ros1 or --ros2");
       choice_.scans = !choice_.scans;
       return;
+    case DriveAction::cameras:
+      return say("views of cameras are shown by `rubble inspect`");
+    case DriveAction::moment:
+      return say("a drive is saved as a mission; `rubble inspect` saves moments");
+    case DriveAction::voids:
+      choice_.voids = !choice_.voids;
+      return map_voids();
     case DriveAction::help:
       help_ = !help_;
       return;
@@ -253,6 +263,15 @@ void DriveSession::act(DriveAction action) {
   }
 }
 
+// As they are now: robots push pieces.
+void DriveSession::map_voids() {
+  if (!choice_.voids) return voids_->forget();
+  PileState now = world_->pile;
+  if (world_->robots)
+    for (std::size_t i = 0; i < now.pieces.size(); ++i) now.pieces[i] = world_->robots->world().piece(int(i));
+  voids_->start(now, world_->robots ? world_->robots->world().steps() : 0, world_->threads);
+}
+
 std::vector<PictureLine> DriveSession::draw_overlay() {
   if (!choice_.any()) return {};
   std::vector<OverlayLine> lines;
@@ -261,6 +280,15 @@ std::vector<PictureLine> DriveSession::draw_overlay() {
   if (choice_.contacts && world) Overlay::add_contacts(*world, lines);
   if (choice_.frames && world) Overlay::add_frames(*world, lines);
   if (choice_.scans) Overlay::add_scan(scan_, lines);
+  if (choice_.voids) {
+    try {
+      if (voids_->take_news()) say("the voids are mapped");
+      if (const VoidMap* map = voids_->map()) add_voids(*map, lines);
+    } catch (const std::exception& error) {
+      choice_.voids = false;
+      say(error.what());
+    }
+  }
   return project_overlay(lines, leg_->shown());
 }
 
@@ -273,6 +301,8 @@ void DriveSession::show() {
   const double level = std::sqrt(ahead.x * ahead.x + ahead.y * ahead.y);
   picture_.heading = {ahead.x / std::max(level, 1e-3), -ahead.y / std::max(level, 1e-3)};
   picture_.status = status();
+  picture_.legend.clear();
+  if (choice_.voids) picture_.legend.push_back(voids_->label());
   picture_.notice = !help_ && Clock::now() < notice_until_ ? notice_ : "";  // help covers its place
   picture_.help.clear();
   if (help_) {

@@ -9,7 +9,8 @@
 #include "app/drive/drive_link.h"
 #include "app/drive/drive_window.h"
 #include "app/drive/height_map.h"
-#include "app/drive/overlay.h"
+#include "app/drive/overlay/overlay.h"
+#include "app/drive/overlay/void_survey.h"
 #include "io/image/drive_picture.h"
 #include "io/live/complaints.h"
 
@@ -37,6 +38,7 @@ class DriveSession {
   void step_robot(const DriveInput& input);
   void follow(const std::vector<JointTrajectoryCommand>& trajectories);
   void show();
+  void map_voids();
   std::vector<PictureLine> draw_overlay();
   std::vector<std::string> status() const;
   void say(const std::string& words);
@@ -62,6 +64,7 @@ class DriveSession {
   int slowness_ = 1;       // of time
   OverlayChoice choice_;
   std::unique_ptr<Overlay> overlay_;  // of this world
+  std::unique_ptr<VoidSurvey> voids_;  // likewise
   LidarScan scan_;                    // the last
   Complaints complaints_{[this](const std::string& line) { say(line); }};
   std::string notice_;

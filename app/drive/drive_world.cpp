@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "app/drive/drive_log.h"
+#include "app/drive/whole_paths.h"
 #include "app/planning/flight.h"
 #include "app/scene/build_scene.h"
 #include "app/support/print.h"
@@ -85,7 +86,7 @@ void enter_robots(const DriveRequest& request, const ResolvedMission& mission, R
 void adapt(Scenario& scenario, const DriveRequest& request, const AssetLibrary& assets) {
   resize_camera(scenario.cameras.front().camera, request.width, request.height);
   // The mission that is saved lies elsewhere.
-  if (!scenario.packs.empty() || !request.of.asset_packs.empty()) scenario.packs = assets.folders;
+  scenario = with_whole_paths(scenario, assets, !request.of.asset_packs.empty());
   double& rate = scenario.trajectory.rate_hz;
   if (rate < kLeastRate || rate > kMostRate) rate = TrajectorySpec{}.rate_hz;
   for (const std::string& off : adapt_to_driving(scenario))

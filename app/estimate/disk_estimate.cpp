@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/formats/recording_formats.h"
-#include "io/mesh/pile_export.h"
+#include "io/scenes/pile_export.h"
 #include "kernel/structure/building.h"
 
 namespace rubble {

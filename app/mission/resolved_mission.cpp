@@ -75,6 +75,7 @@ ResolvedMission resolve_mission(const RunRequest& request, RunKind kind, RunCont
   load_with_progress(mission, context, [&] { return load_assets(loaded, request.asset_packs); });
   mission.provenance.assets = mission.assets.contents;
   mission.provenance.robots = mission.assets.robots;
+  mission.provenance.snapshot = mission.assets.snapshot;
   return mission;
 }
 
@@ -92,6 +93,7 @@ ResolvedMission resolve_mission(const Provenance& provenance,
                                 const std::vector<std::string>& pack_folders, RunContext& context) {
   ResolvedMission mission = resolve_pile(provenance, pack_folders, context);
   recall_robots(provenance, pack_folders, mission.assets);
+  recall_snapshot(provenance, pack_folders, mission.assets);
   return mission;
 }
 

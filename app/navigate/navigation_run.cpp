@@ -11,6 +11,7 @@
 #include "kernel/robot/bundled.h"
 #include "kernel/robot/gaits.h"
 #include "kernel/robot/robot_run.h"
+#include "kernel/world/world_robots.h"
 #include "render/lidar/lidar.h"
 #include "scripting/scenario/lidar_scenario.h"
 
@@ -156,13 +157,13 @@ class Drive {
   }
 
   bool take_step(const World& world) {
-    const RobotState state = world.robot_state(0);
+    const RobotState state = world.robots().state(0);
     if (state.lost) end_ = NavigationEnd::lost;
     const Pose& base = state.links.front().world_from_link;
     if (world_.is_inside(base.translation)) score_.inside += distance(base.translation, history_.last().translation);
     history_.add(base);
     if (base.rotation.rotate({0, 0, 1}).z < kFallen) end_ = NavigationEnd::fell;
-    collisions_.note(world.robot_contacts(0), base.translation);
+    collisions_.note(world.robots().contacts(0), base.translation);
     if (end_ != NavigationEnd::time_up) score_.end = end_;
     return end_ == NavigationEnd::time_up;
   }

@@ -3,17 +3,19 @@
 #include <chrono>
 #include <cstdio>
 
+#include "app/control/robot_control.h"
 #include "app/fines/lay_fines.h"
 #include "app/pipeline/stages.h"
 #include "app/provenance/earlier_files.h"
 #include "app/scene/build_scene.h"
+#include "app/simulators/build_sim_scene.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
 #include "app/surroundings/lay_surroundings.h"
 #include "app/victims/place_victims.h"
 #include "io/base/atomic_file.h"
-#include "io/mesh/pile_export.h"
 #include "io/mesh/track_glb.h"
+#include "io/scenes/pile_export.h"
 #include "io/state/checkpoint_file.h"
 #include "io/state/pile_state_file.h"
 #include "io/state/track_file.h"
@@ -150,16 +152,22 @@ SettledPile settle_from_checkpoint_or_start(const ResolvedMission& mission, cons
   WorldObserver observe;
   if (recorded) observe = [&track](const World& world) { track.observe(world); };
   SettledPile settled;
-  settled.state = goes_on ? resume_settling(load_checkpoint(folder.checkpoint_file()), pile,
-                                            options, step, observe)
-                          : settle_pile(pile, options, step, observe);
+  World world(pile.types, calc_world_options(options), pile.assemblies);
+  settled.state = goes_on ? resume_settling(world, load_checkpoint(folder.checkpoint_file()), pile, options, step, observe)
+                          : settle_pieces(world, mission, pile, options, step, observe);
   settled.track = track.take();
   return settled;
 }
 
 // What pile.bin is made from.
 std::uint64_t hash_work_of(const ResolvedMission& mission, const Pile& pile) {
-  const std::uint64_t settling = hash_work(pile, mission.scenario.settle);
+  std::uint64_t settling = hash_work(pile, mission.scenario.settle);
+  if (mission.assets.snapshot) {
+    StateHash from;
+    from.add(settling);
+    for (const char c : mission.assets.snapshot->sha256) from.add(std::int32_t(c));
+    settling = from.digest();
+  }
   const VictimScenario& victims = mission.scenario.victims;
   const FinesSpec& fines = mission.scenario.fines;
   if (victims.count == 0) return hash_fines_work(fines, mission.pile_seed, settling);
@@ -202,16 +210,6 @@ std::string summarize_settling(const PileState& pile, bool loaded) {
   return text + std::string(loaded ? ", as settled before" : "");
 }
 
-// All that comes after rest, of a run, of one that goes on, and of a drive. loaded: victims and fines are there already.
-void finish_pile(const ResolvedMission& mission, bool loaded, RunContext& context, SettledPile& settled) {
-  note_standing_building(mission, settled.state, context);
-  if (!loaded) add_victims(mission, context.threads(), settled.state);
-  context.progress.finish(summarize_settling(settled.state, loaded));
-  if (!loaded) strew(mission, context, settled.state);
-  lay_surroundings(mission.scenario, mission.assets, settled.state);
-  add_pile_metrics(settled.state, mission.assets, settled.metrics);
-}
-
 }  // namespace
 
 void add_victims(const ResolvedMission& mission, int threads, PileState& pile) {
@@ -236,7 +234,8 @@ SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext
   SettledPile settled = loaded ? load(mission.scenario.fines, recorded, folder)
                                : settle_from_checkpoint_or_start(mission, pile, folder, context);
   throw_if_stopped(folder.path());
-  finish_pile(mission, loaded, context, settled);
+  complete_pile(mission, context, settled.state, loaded);
+  add_pile_metrics(settled.state, mission.assets, settled.metrics);
   if (!loaded && recorded) save_track(settled.track, folder.file("track.bin"));
   if (!loaded) save(mission, settled.state, work, folder);
   folder.add("pile.bin");
@@ -253,14 +252,36 @@ SettledPile settle_in_memory(const ResolvedMission& mission, RunContext& context
   options.threads = context.threads();
   bool stopped = false;
   SettledPile settled;
-  settled.state = settle_pile(make_pile(mission), options, [&](const SettleProgress& p) {
+  const Pile pile = make_pile(mission);
+  World world(pile.types, calc_world_options(options), pile.assemblies);
+  settled.state = settle_pieces(world, mission, pile, options, [&](const SettleProgress& p) {
     show_settling(p, options, context.progress);
     stopped = !go_on();
     return !stopped;
   });
   if (stopped) throw Stopped("stopped while the pile settled; nothing is kept");
-  finish_pile(mission, false, context, settled);
+  complete_pile(mission, context, settled.state);
+  add_pile_metrics(settled.state, mission.assets, settled.metrics);
   return settled;
+}
+
+PileState settle_pieces(World& world, const ResolvedMission& mission, const Pile& pile, const SettleOptions& options,
+                        const SettleCallback& step, const WorldObserver& observe) {
+  if (!mission.assets.snapshot) return settle_pile(world, pile, options, step, observe);
+  const SettleCheckpoint from = load_checkpoint(mission.assets.snapshot_file);
+  if (from.work != hash_work(pile, options))
+    throw with_lines(mission, InputError({"", 0, "pile.snapshot", "the snapshot is of another pile or of other settling options",
+                                          "the mission, seed and `settle` that it was saved from",
+                                          "\"" + mission.assets.snapshot->file + "\"", "leave out pile.snapshot to settle from the start"}));
+  return resume_settling(world, from, pile, options, step, observe);
+}
+
+void complete_pile(const ResolvedMission& mission, RunContext& context, PileState& pile, bool loaded) {
+  note_standing_building(mission, pile, context);
+  if (!loaded) add_victims(mission, context.threads(), pile);
+  context.progress.finish(summarize_settling(pile, loaded));
+  if (!loaded) strew(mission, context, pile);
+  lay_surroundings(mission.scenario, mission.assets, pile);
 }
 
 void write_pile_files(const ResolvedMission& mission, const SettledPile& pile, RunFolder& folder,
@@ -270,13 +291,20 @@ void write_pile_files(const ResolvedMission& mission, const SettledPile& pile, R
   if (outputs.stl) formats.push_back("stl");
   if (formats.empty() && !outputs.track) return;
   context.progress.start("export");
-  PileModel model = build_pile_model(mission.assets, pile.state);
-  model.gravity = mission.scenario.settle.gravity;
+  BuiltScene built;
+  if (needs_scene(formats)) {
+    const std::size_t warned = context.warnings.size();
+    built = build_sim_scene(mission, pile.state, make_robots(mission, context), {}, context.threads());
+    context.warnings.resize(warned);  // those of robots come when they are driven
+    for (const std::string& note : list_notes(built, formats)) context.warnings.push_back("outputs.meshes: " + note);
+  } else {
+    built.model = build_mesh_model(mission.assets, pile.state, formats, context.threads());
+  }
   for (const MeshFormat& format : mesh_formats())
     if (format.is_folder && std::find(formats.begin(), formats.end(), format.name) != formats.end())
       remove_folder_of_killed_run(folder.file(format.leaves.back()));
   for (const std::string& format : formats)
-    for (const std::string& name : export_pile(model, format, folder.path())) folder.add(name);
+    for (const std::string& name : export_pile(built.model, format, folder.path())) folder.add(name);
   if (outputs.track) {
     write_track_glb(folder.file("track.glb"), build_track_model(mission.assets, pile.state), pile.track);
     folder.add("track.glb");

@@ -29,6 +29,8 @@
 #include "app/session/driven_robots.h"
 #include "kernel/model/pile_state.h"
 #include "kernel/model/track.h"
+#include "kernel/settling/settle.h"
+#include "kernel/world/world.h"
 #include "render/renderer.h"
 
 namespace rubble {
@@ -51,6 +53,15 @@ SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext
 // thrown.
 SettledPile settle_in_memory(const ResolvedMission& mission, RunContext& context,
                              const std::function<bool()>& go_on);
+
+// The first part of it, in a world of the caller: what falls, from the start or the mission's snapshot, until it rests.
+// world: empty, with the types and assemblies of the pile, by make_pile(mission). Throws InputError, with the key, for a
+// snapshot of another pile.
+PileState settle_pieces(World& world, const ResolvedMission& mission, const Pile& pile, const SettleOptions& options,
+                        const SettleCallback& step, const WorldObserver& observe = {});
+// The second: all that comes when the pile rests, for runs, runs that go on, and drives: a warning of a building that
+// stands, victims, fines, surroundings. loaded: the pile has its victims and fines already.
+void complete_pile(const ResolvedMission& mission, RunContext& context, PileState& pile, bool loaded = false);
 
 // Puts the mission's victims into a settled pile. Throws InputError, with the line of the script, when its voids have no
 // room for them.

@@ -8,7 +8,7 @@
 #include "app/formats/recording_formats.h"
 #include "io/base/atomic_file.h"
 #include "io/base/remove_files.h"
-#include "io/mesh/pile_export.h"
+#include "io/scenes/pile_export.h"
 #include "kernel/base/error.h"
 #include "kernel/base/system/output_files.h"
 #include "kernel/base/text.h"
@@ -54,7 +54,10 @@ void add_listed(const std::string& folder, std::vector<std::string>& files) {
   const std::string path = folder + "/unfinished/files.txt";
   if (!is_plain_file(folder + "/unfinished/run.json")) return;
   // The list comes when the pile, with its exports, is there.
-  std::istringstream list("sdf\n" + (is_plain_file(path) ? read_whole_file(path) : ""));
+  std::string names;
+  for (const MeshFormat& format : mesh_formats())
+    if (format.is_folder) names += format.leaves.back() + "\n";
+  std::istringstream list(names + (is_plain_file(path) ? read_whole_file(path) : ""));
   for (std::string name; std::getline(list, name);) {
     if (is_name_of_run(name)) files.push_back(name);
     if (!contains(recording_folders(), name)) continue;

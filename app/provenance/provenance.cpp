@@ -82,6 +82,8 @@ Provenance read_provenance(const JsonMembers& json) {
   if (json.has("robots"))
     for (const JsonMembers& robot : json.list("robots"))
       provenance.robots.push_back({robot.text("urdf"), robot.text("sha256")});
+  if (json.has("snapshot"))
+    provenance.snapshot = SnapshotContent{json.object("snapshot").text("file"), json.object("snapshot").text("sha256")};
   if (json.has("pile_from"))
     provenance.pile_from =
         std::make_shared<const Provenance>(read_provenance(json.object("pile_from")));
@@ -142,6 +144,7 @@ void add_provenance(Json& json, const Provenance& provenance) {
   for (const AssetContent& asset : provenance.assets) json["assets"].push_back(json_of(asset));
   for (const RobotContent& robot : provenance.robots)
     json["robots"].push_back({{"urdf", robot.urdf}, {"sha256", robot.sha256}});
+  if (provenance.snapshot) json["snapshot"] = {{"file", provenance.snapshot->file}, {"sha256", provenance.snapshot->sha256}};
   if (!provenance.pile_from) return;
   json["pile_from"] = Json::object();
   add_provenance(json["pile_from"], *provenance.pile_from);

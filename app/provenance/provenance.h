@@ -29,6 +29,12 @@ struct RobotContent {
   std::string sha256;  // over the URDF file and the meshes that it names
 };
 
+// The file that settling went on from.
+struct SnapshotContent {
+  std::string file;    // as pile.snapshot names it
+  std::string sha256;  // of the file
+};
+
 enum class RunKind {
   run,     // a pile and its frames
   settle,  // the pile only
@@ -44,6 +50,7 @@ struct Provenance {
   std::string scenario;                         // what followed from all this: JSON without spaces
   std::vector<AssetContent> assets;             // what is dropped, in the order of the pile's types
   std::vector<RobotContent> robots;             // of the robots with a URDF file, in the mission's order
+  std::optional<SnapshotContent> snapshot;      // of a pile that settled from one
   std::shared_ptr<const Provenance> pile_from;  // of a `render`: of the run that settled the pile
 };
 
@@ -59,8 +66,8 @@ Scenario stated_scenario(const Provenance& provenance);
 // A mission over somebody else's pile: takes over what settled it. The rest stays as it is.
 void adopt_pile(Scenario& scenario, const Scenario& pile_source);
 
-// As members "kind", "script", "included", "request", "scenario", "assets", "robots" (where a URDF file is used) and
-// "pile_from".
+// As members "kind", "script", "included", "request", "scenario", "assets", "robots" (where a URDF file is used), "snapshot"
+// (where there is one) and "pile_from".
 void add_provenance(nlohmann::ordered_json& json, const Provenance& provenance);
 // Throws InputError naming `file` and the member that is missing or of another type.
 Provenance provenance_from_json(const nlohmann::ordered_json& json, const std::string& file);

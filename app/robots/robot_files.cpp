@@ -5,10 +5,11 @@
 #include "io/base/atomic_file.h"
 #include "io/base/csv_text.h"
 #include "io/base/number_text.h"
-#include "io/mesh/stl_writer.h"
 #include "io/robot/urdf_writer.h"
+#include "io/scenes/scene_text.h"
 #include "io/state/track_file.h"
 #include "kernel/base/system/output_files.h"
+#include "kernel/geometry/hull.h"
 #include "kernel/robot/looks.h"
 #include "scripting/values/value.h"
 
@@ -102,11 +103,6 @@ std::string package_text() {
          "  <maintainer email=\"nobody@example.org\">nobody</maintainer>\n  <license>unknown</license>\n</package>\n";
 }
 
-void write_mesh(const std::string& path, const RobotLink& link) {
-  const TriangleMesh mesh = make_link_mesh(link, "");
-  write_stl(path, {{&mesh, 1, {}}});
-}
-
 }  // namespace
 
 void write_robot_description(const std::string& folder, const std::string& name, const RobotModel& model) {
@@ -114,12 +110,9 @@ void write_robot_description(const std::string& folder, const std::string& name,
   make_folder_below(folder, meshes);
   for (const RobotLink& link : model.links) {
     if (link.parts.empty() && link.looks.triangles.empty()) continue;
-    write_mesh(folder + "/" + link_mesh_file(meshes, link.name), link);
-    for (std::size_t k = 0; k < link.parts.size(); ++k) {
-      RobotLink part;
-      part.parts = {link.parts[k]};
-      write_mesh(folder + "/" + part_mesh_file(meshes, link.name, k), part);
-    }
+    write_text_file(folder + "/" + link_mesh_file(meshes, link.name), plain_obj(link.name, make_link_mesh(link, "")));
+    for (std::size_t k = 0; k < link.parts.size(); ++k)
+      write_text_file(folder + "/" + part_mesh_file(meshes, link.name, k), hull_obj(calc_hull(link.parts[k].points)));
   }
   write_text_file(folder + "/" + name + ".urdf", robot_to_urdf(model, name, meshes));
 }

@@ -62,6 +62,7 @@ SceneInstance make_instance(const ClassLabels& labels, const PieceState& piece, 
 }
 
 void set_building_cuts(const AssetLibrary& assets, const PileState& pile, Scene& scene) {
+  if (pile.building.count == 0) return;
   const std::size_t begin = std::size_t(pile.building.first);
   for (SceneInstance& instance : scene.instances) {
     if (instance.id >= begin && instance.id - begin < assets.building_cuts.size())

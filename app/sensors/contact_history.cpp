@@ -1,4 +1,5 @@
 #include "app/sensors/contact_history.h"
+#include "kernel/world/world_robots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +9,9 @@ namespace rubble {
 void ContactHistory::note(const World& world, int robots) {
   std::vector<std::vector<double>>& step = forces_.emplace_back(std::size_t(robots));
   for (int robot = 0; robot < robots; ++robot) {
-    const int first = world.robot_piece(robot), links = int(world.robot_model(robot).links.size());
+    const int first = world.robots().first_piece(robot), links = int(world.robots().model(robot).links.size());
     std::vector<double>& force = step[std::size_t(robot)];
-    for (const RobotContact& contact : world.robot_contacts(robot)) {
+    for (const RobotContact& contact : world.robots().contacts(robot)) {
       if (contact.piece >= first && contact.piece < first + links) continue;  // the robot itself
       if (force.empty()) force.resize(std::size_t(links));
       force[std::size_t(contact.link)] += contact.force;

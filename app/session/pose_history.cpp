@@ -6,6 +6,7 @@
 #include "app/robots/felt_links.h"
 #include "app/scene/moving_scene.h"
 #include "kernel/base/error.h"
+#include "kernel/world/world_robots.h"
 
 namespace rubble {
 
@@ -47,10 +48,19 @@ const std::shared_ptr<const MotionPath>& PoseHistory::way_of(const Carrier& carr
 
 Pose PoseHistory::place(const Mount& mount) const {
   const World& world = run_->world();
-  return world.piece(world.robot_piece(int(mount.robot)) + int(mount.link)).world_from_body * mount.link_from_rider;
+  return world.piece(world.robots().first_piece(int(mount.robot)) + int(mount.link)).world_from_body * mount.link_from_rider;
 }
 
 Pose PoseHistory::world_from_rig() const { return place(mounts_.at(std::size_t(rig_))); }
+
+std::optional<Pose> PoseHistory::world_from(const Carrier& carrier) const {
+  const std::size_t rigs = rig_ < 0 ? 0 : 1;  // the rig comes first, then the links in their order
+  if (!carrier.on() && rigs == 0) return std::nullopt;
+  if (!carrier.on()) return world_from_rig();
+  for (std::size_t i = 0; i < ways_.links.size(); ++i)
+    if (ways_.links[i].carrier == carrier) return place(mounts_[rigs + i]);
+  return std::nullopt;
+}
 
 std::optional<RigMount> PoseHistory::mount(const std::vector<RobotRecord>& records) const {
   if (rig_ < 0) return std::nullopt;

@@ -10,6 +10,7 @@
 #include "app/sensors/reading_sensor.h"
 #include "app/session/live_colours.h"
 #include "app/session/live_sensors.h"
+#include "kernel/world/world_robots.h"
 
 namespace rubble {
 namespace {
@@ -81,7 +82,7 @@ void Session::start() {
                 if (options_.observed || options_.recorded) log.note(sense);
                 return control(sense);
               });
-    seen_.first_piece.push_back(run_->world().robot_piece(int(i)));
+    seen_.first_piece.push_back(run_->world().robots().first_piece(int(i)));
   }
   run_->begin();
   history_.restart(*run_);
@@ -160,7 +161,7 @@ DrivenRobots Session::finish() {
   driven.readings = history_.ways();
   const World& world = run_->world();
   for (std::size_t i = 0; i < robots_.size(); ++i) {
-    const RobotSense last{world.time(), world.robot_state(int(i)), world.robot_contacts(int(i))};
+    const RobotSense last{world.time(), world.robots().state(int(i)), world.robots().contacts(int(i))};
     if (!last.state.lost) logs_[i].note(last);
     driven.readings.samples.push_back(logs_[i].samples());
   }

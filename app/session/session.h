@@ -74,6 +74,10 @@ class Session {
   double step_time() const { return run_options_.step; }  // unit: s
   std::int64_t steps_of_mission() const;  // as many as robot_run.duration asks for
   Pose world_from_rig() const { return history_.world_from_rig(); }  // the rig must be on a robot
+  // Now, of what carries a sensor; nothing: no robot does.
+  std::optional<Pose> world_from(const Carrier& carrier) const { return history_.world_from(carrier); }
+  // From outside, on a piece or a link, before the next step: see World::apply_impulse(). No mission says this again.
+  void apply_impulse(int piece, const Vec3& point, const Vec3& impulse) { run_->apply_impulse(piece, point, impulse); }
   // The scene with everything where it is when it is drawn. drawn: the scenario of the camera. It must not outlive this.
   Scene build_scene(const Scenario& drawn) const;
 

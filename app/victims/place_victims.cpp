@@ -11,6 +11,8 @@
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
 #include "kernel/world/world.h"
+#include "kernel/world/world_diagnostics.h"
+#include "kernel/world/world_rest.h"
 
 namespace rubble {
 namespace {
@@ -133,10 +135,10 @@ class Placer {
     bool rests = false;
     while (!rests && world_->time() < end) {
       world_->step();
-      rests = world_->is_touching(index) && world_->at_rest(kRestSpeed, kRestTurning);
+      rests = world_->is_touching(index) && world_->rest().reached(kRestSpeed, kRestTurning);
     }
     PieceState found = world_->piece(index);
-    if (!rests || found.status == PieceStatus::lost || world_->deepest_overlap().depth > kMostOverlap ||
+    if (!rests || found.status == PieceStatus::lost || world_->diagnostics().deepest_overlap().depth > kMostOverlap ||
         distance(found.world_from_body.translation, pose.translation) > kFarthest)
       return {};
     found.linear_velocity = found.angular_velocity = {};

@@ -10,7 +10,7 @@
 #include "io/base/atomic_file.h"
 #include "io/base/little_endian.h"
 #include "io/image/exr_file.h"
-#include "io/mesh/pile_export.h"
+#include "io/scenes/pile_export.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
 #include "render/colour/frame_light.h"

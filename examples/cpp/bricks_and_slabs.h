@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "kernel/model/pile.h"
+#include <rubble/kernel/model/pile.h>
 
 // A box of these edge lengths, unit: m. A piece is given by the corners of its convex parts.
 inline rubble::PieceType make_box(const std::string& name, double x, double y, double z) {

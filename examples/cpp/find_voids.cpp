@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "bricks_and_slabs.h"
-#include "io/state/pile_state_file.h"
-#include "kernel/queries/queries.h"
-#include "kernel/voids/void_map.h"
+#include <rubble/io/state/pile_state_file.h>
+#include <rubble/kernel/queries/queries.h>
+#include <rubble/kernel/voids/void_map.h>
 
 namespace {
 

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "bricks_and_slabs.h"
-#include "io/mesh/stl_writer.h"
-#include "io/state/pile_state_file.h"
-#include "kernel/base/hash.h"
-#include "kernel/settling/generator.h"
-#include "kernel/settling/settle.h"
+#include <rubble/io/mesh/stl_writer.h>
+#include <rubble/io/state/pile_state_file.h>
+#include <rubble/kernel/base/hash.h>
+#include <rubble/kernel/settling/generator.h>
+#include <rubble/kernel/settling/settle.h>
 
 namespace {
 

@@ -78,28 +78,47 @@ void put_help(cv::Mat& pane, const DrivePicture& picture) {
   }
 }
 
+// Below the name of the pane; not where help covers it.
+void put_legend(cv::Mat& pane, const DrivePicture& picture) {
+  if (!picture.help.empty()) return;
+  int y = picture.map ? 16 + kLine : 16;
+  for (const PictureLabel& row : picture.legend) {
+    put_label(pane, row.text, cv::Point(9, y + 1), kLetters, cv::Scalar(0, 0, 0));
+    put_label(pane, row.text, cv::Point(8, y), kLetters, cv::Scalar(row.colour[2], row.colour[1], row.colour[0]));
+    y += kLine;
+  }
+}
+
 }  // namespace
 
 std::array<int, 2> drive_picture_size(int frame_width, int frame_height) {
   return {2 * frame_width + frame_height, frame_height + kBar};
 }
 
+std::array<int, 2> inspect_picture_size(int frame_width, int frame_height) {
+  return {frame_width, frame_height + kBar};
+}
+
 RgbImage draw_drive_picture(const DrivePicture& picture) {
   const Frame& frame = *picture.frame;
   const int width = frame.intrinsics.width, height = frame.intrinsics.height;
-  const std::array<int, 2> size = drive_picture_size(width, height);
+  const std::array<int, 2> size = picture.map ? drive_picture_size(width, height) : inspect_picture_size(width, height);
   cv::Mat sheet(size[1], size[0], CV_8UC3, kPaper);
-  cv::Mat colour = colour_pane(frame), depth = depth_pane(frame), map = map_pane(picture);
+  cv::Mat colour = colour_pane(frame);
   for (const PictureLine& line : picture.lines)
     cv::line(colour, pixel(line.from), pixel(line.to), cv::Scalar(line.colour[2], line.colour[1], line.colour[0]), 1, cv::LINE_AA);
   put_help(colour, picture);
   if (!picture.notice.empty()) put_words(colour, picture.notice, {8, height - 10});
-  put_words(colour, "colour", {8, 16});
-  put_words(depth, "depth, red 0.2 m to blue 20 m", {8, 16});
-  put_words(map, "map", {8, 16});
+  put_legend(colour, picture);
+  if (picture.map) {
+    cv::Mat depth = depth_pane(frame), map = map_pane(picture);
+    put_words(colour, "colour", {8, 16});
+    put_words(depth, "depth, red 0.2 m to blue 20 m", {8, 16});
+    put_words(map, "map", {8, 16});
+    depth.copyTo(sheet(cv::Rect(width, 0, width, height)));
+    map.copyTo(sheet(cv::Rect(2 * width, 0, height, height)));
+  }
   colour.copyTo(sheet(cv::Rect(0, 0, width, height)));
-  depth.copyTo(sheet(cv::Rect(width, 0, width, height)));
-  map.copyTo(sheet(cv::Rect(2 * width, 0, height, height)));
   for (std::size_t i = 0; i < picture.status.size(); ++i)
     put_label(sheet, picture.status[i], {8, height + 18 + int(i) * kLine}, kLetters,
               i == 0 ? kInk : kFaint);

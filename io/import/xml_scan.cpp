@@ -58,8 +58,8 @@ bool XmlScanner::next() {
     if (tag.back() != '>') return false;
     tag = tag.substr(1, tag.size() - 2);
     closes_ = tag[0] == '/';
-    empty_ = !tag.empty() && tag.back() == '/';
     if (closes_) tag.remove_prefix(1);
+    empty_ = !tag.empty() && tag.back() == '/';
     if (empty_) tag.remove_suffix(1);
     name_ = take_word(tag);
     read_attributes(tag);

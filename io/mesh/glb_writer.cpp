@@ -6,7 +6,7 @@
 #include "io/base/atomic_file.h"
 #include "io/base/little_endian.h"
 #include "io/mesh/glb_paint.h"
-#include "io/mesh/pile_export.h"
+#include "io/mesh/mesh_writers.h"
 #include "io/mesh/track_glb.h"
 #include "kernel/base/error.h"
 
@@ -29,8 +29,15 @@ class GlbBuilder {
     json_["scenes"] = Json::array({Json{{"name", "pile"}}});
   }
 
+  // Of the types that some piece has.
   void add_meshes() {
-    for (const PileModel::Type& type : model_.types) {
+    std::vector<bool> used(model_.types.size(), false);
+    for (const PileModel::Piece& piece : model_.pieces) used[piece.type] = true;
+    int count = 0;
+    for (std::size_t i = 0; i < model_.types.size(); ++i) {
+      const PileModel::Type& type = model_.types[i];
+      mesh_of_type_.push_back(used[i] ? count++ : -1);
+      if (!used[i]) continue;
       Json mesh{{"name", type.name}, {"primitives", Json::array()}};
       const int positions = add_vectors(type.mesh->positions, true);
       const int normals = type.mesh->normals.empty() ? -1 : add_vectors(type.mesh->normals, false);
@@ -60,7 +67,7 @@ class GlbBuilder {
       const Vec3 axis = to_y_up(Vec3{q.x, q.y, q.z});
       children.push_back(children.size());
       json_["nodes"].push_back({{"name", piece.name},
-                                {"mesh", piece.type},
+                                {"mesh", mesh_of_type_[piece.type]},
                                 {"translation", {t.x, t.y, t.z}},
                                 {"rotation", {axis.x, axis.y, axis.z, q.w}},
                                 {"scale", {piece.scale, piece.scale, piece.scale}}});
@@ -274,6 +281,7 @@ class GlbBuilder {
   Json json_;
   std::string bytes_;  // all numbers; every part's size is a multiple of 4
   std::vector<std::string> material_names_;
+  std::vector<int> mesh_of_type_;  // -1: no piece has it
 };
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <charconv>
 
 #include "io/base/atomic_file.h"
-#include "io/mesh/pile_export.h"
+#include "io/mesh/mesh_writers.h"
 #include "kernel/base/system/output_files.h"
 #include "kernel/base/text.h"
 
@@ -24,36 +24,39 @@ void put_vector(std::string& text, const char* keyword, const Vec3f& v) {
   text += '\n';
 }
 
-void put_face(std::string& text, const std::array<std::uint32_t, 3>& v, std::size_t vertices,
-              const std::array<std::uint32_t, 3>* n, std::size_t normals) {
+// Of each corner v, v/vt, v//vn or v/vt/vn. place: number of the first corner's; 0: none.
+void put_face(std::string& text, const std::array<std::uint32_t, 3>& v, const ObjCounts& before,
+              const std::array<std::uint32_t, 3>* n, std::size_t place) {
   text += 'f';
   for (std::size_t i = 0; i < 3; ++i) {
-    text += ' ' + std::to_string(vertices + v[i] + 1);
-    if (n) text += "//" + std::to_string(normals + (*n)[i] + 1);
+    text += ' ' + std::to_string(before.positions + v[i] + 1);
+    if (place > 0) text += '/' + std::to_string(place + i);
+    if (n) text += (place > 0 ? "/" : "//") + std::to_string(before.normals + (*n)[i] + 1);
   }
   text += '\n';
 }
 
-}  // namespace
-
-// Faces of one surface together: a `usemtl` for each change would make thousands of groups.
-void put_obj_object(std::string& text, const PileModel::Piece& piece, const TriangleMesh& mesh,
-                    const WeldedMesh& welded, std::size_t& vertices, std::size_t& normals) {
-  text += "o " + one_line(piece.name) + "\n";
-  for (const Vec3f& p : welded.positions) put_vector(text, "v", world_position(piece, p));
-  for (const Vec3f& n : mesh.normals)
-    put_vector(text, "vn", Vec3f(piece.world_from_body.rotation.rotate(Vec3(n))));
-  const std::size_t surfaces = std::max<std::size_t>(1, mesh.surface_names.size());
-  for (std::size_t s = 0; s < surfaces; ++s) {
-    if (s < mesh.surface_names.size()) text += "usemtl " + one_line(mesh.surface_names[s]) + "\n";
-    for (std::size_t i = 0; i < welded.triangles.size(); ++i) {
-      if (welded.surfaces[i] != s) continue;
-      put_face(text, welded.triangles[i], vertices,
-               welded.normals.empty() ? nullptr : &welded.normals[i], normals);
-    }
+void put_place(std::string& text, const PaintCorner& corner) {
+  char number[32];
+  text += "vt";
+  for (const float x : {corner.u, corner.v}) {
+    text += ' ';
+    text.append(number, std::to_chars(number, number + sizeof number, x + 0.0f).ptr);
   }
-  vertices += welded.positions.size();
-  normals += mesh.normals.size();
+  text += '\n';
+}
+
+// Whether each normal is that of its face, within a degree.
+bool is_flat(const TriangleMesh& mesh) {
+  constexpr float kCosine = 0.9998477f;
+  for (const auto& t : mesh.triangles) {
+    const Vec3f& a = mesh.positions[t[0]];
+    const Vec3f area = cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a);
+    const float size = norm(area);
+    for (const std::uint32_t v : t)
+      if (dot(area, mesh.normals[v]) < kCosine * size) return false;
+  }
+  return true;
 }
 
 std::string make_mtl(const PileModel& model) {
@@ -63,11 +66,44 @@ std::string make_mtl(const PileModel& model) {
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   std::string text = kComment;
-  for (const std::string& name : names) {
-    text += "newmtl " + one_line(name) + "\n";
-    put_vector(text, "Kd", model.colour_of(name));
-    text += "Ks 0 0 0\nillum 1\n";
+  for (const std::string& name : names) text += mtl_text(name, model.colour_of(name));
+  return text;
+}
+
+}  // namespace
+
+// Faces of one surface together: a `usemtl` for each change would make thousands of groups.
+void put_obj_object(std::string& text, const PileModel::Piece& piece, const TriangleMesh& mesh,
+                    const WeldedMesh& welded, ObjCounts& counts, bool places) {
+  text += "o " + one_line(piece.name) + "\n";
+  for (const Vec3f& p : welded.positions) put_vector(text, "v", world_position(piece, p));
+  const bool with_normals = !welded.normals.empty() && !is_flat(mesh);
+  if (with_normals)
+    for (const Vec3f& n : mesh.normals)
+      put_vector(text, "vn", Vec3f(piece.world_from_body.rotation.rotate(Vec3(n))));
+  const std::size_t surfaces = std::max<std::size_t>(1, mesh.surface_names.size());
+  for (std::size_t s = 0; s < surfaces; ++s) {
+    if (s < mesh.surface_names.size()) text += "usemtl " + one_line(mesh.surface_names[s]) + "\n";
+    const SurfacePaint* const paint = mesh.paint_of(s);
+    const bool placed = places && paint && paint->albedo.side > 0;
+    for (std::size_t i = 0; i < welded.triangles.size(); ++i) {
+      if (welded.surfaces[i] != s) continue;
+      if (placed) {
+        for (const PaintCorner& corner : mesh.paint_corners[welded.sources[i]]) put_place(text, corner);
+        counts.places += 3;
+      }
+      put_face(text, welded.triangles[i], counts, with_normals ? &welded.normals[i] : nullptr, placed ? counts.places - 2 : 0);
+    }
   }
+  counts.positions += welded.positions.size();
+  if (with_normals) counts.normals += mesh.normals.size();
+}
+
+std::string mtl_text(const std::string& name, const Vec3f& colour, const std::string& picture) {
+  std::string text = "newmtl " + one_line(name) + "\n";
+  put_vector(text, "Kd", colour);
+  text += "Ks 0 0 0\nillum 1\n";
+  if (!picture.empty()) text += "map_Kd " + one_line(picture) + "\n";
   return text;
 }
 
@@ -79,12 +115,11 @@ void write_obj(const std::string& path, const PileModel& model) {
   AtomicFile file(path), materials(stem + ".mtl");
   materials.write(make_mtl(model));
   file.write(kComment + ("mtllib " + library + "\n"));
-  std::size_t vertices = 0, normals = 0;
+  ObjCounts counts;
   std::string text;
   for (const PileModel::Piece& piece : model.pieces) {
     text.clear();
-    put_obj_object(text, piece, *model.types[piece.type].mesh, welded[piece.type], vertices,
-                   normals);
+    put_obj_object(text, piece, *model.types[piece.type].mesh, welded[piece.type], counts);
     file.write(text);
   }
   materials.commit();

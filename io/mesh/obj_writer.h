@@ -7,12 +7,17 @@
 
 namespace rubble {
 
-// Appends one object. `vertices` and `normals`: how many are in the file before it; both are
-// increased.
-void put_obj_object(std::string& text, const PileModel::Piece& piece, const TriangleMesh& mesh,
-                    const WeldedMesh& welded, std::size_t& vertices, std::size_t& normals);
+// What is in the file before an object.
+struct ObjCounts {
+  std::size_t positions = 0, normals = 0, places = 0;
+};
 
-// The material library of every surface that the model's meshes name.
-std::string make_mtl(const PileModel& model);
+// Appends one object and adds it to the counts. Positions that are equal are one, and normals that are those of the faces
+// are left out, so that readers find a closed mesh. places: with places in pictures, of surfaces that have a picture.
+void put_obj_object(std::string& text, const PileModel::Piece& piece, const TriangleMesh& mesh,
+                    const WeldedMesh& welded, ObjCounts& counts, bool places = false);
+
+// A material. picture: name of its file; empty: none. colour: linear light.
+std::string mtl_text(const std::string& name, const Vec3f& colour, const std::string& picture = "");
 
 }  // namespace rubble

@@ -51,6 +51,7 @@ WeldedMesh weld(const TriangleMesh& mesh) {
     const std::array<std::uint32_t, 3> w{number_of[t[0]], number_of[t[1]], number_of[t[2]]};
     if (w[0] == w[1] || w[1] == w[2] || w[2] == w[0]) continue;
     welded.triangles.push_back(w);
+    welded.sources.push_back(std::uint32_t(i));
     welded.surfaces.push_back(mesh.surfaces.empty() ? std::uint8_t{0} : mesh.surfaces[i]);
     if (!mesh.normals.empty()) welded.normals.push_back(t);
   }

@@ -48,6 +48,7 @@ struct WeldedMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;  // as the mesh's, less those without area
   std::vector<std::uint8_t> surfaces;                   // one per triangle
   std::vector<std::array<std::uint32_t, 3>> normals;    // indices into the mesh's normals; or empty
+  std::vector<std::uint32_t> sources;                   // one per triangle: its index in the mesh
 };
 WeldedMesh weld(const TriangleMesh& mesh);
 

@@ -5,7 +5,7 @@
 #include "io/base/atomic_file.h"
 #include "io/base/little_endian.h"
 #include "io/base/srgb.h"
-#include "io/mesh/pile_export.h"
+#include "io/mesh/mesh_writers.h"
 #include "kernel/base/error.h"
 
 namespace rubble {

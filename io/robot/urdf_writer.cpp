@@ -101,11 +101,11 @@ std::string frame_text(const RobotModel& model, const RobotFrame& frame, const s
 }  // namespace
 
 std::string link_mesh_file(const std::string& folder, const std::string& link) {
-  return folder + "/" + file_name_of(link) + ".stl";
+  return folder + "/" + file_name_of(link) + ".obj";
 }
 
 std::string part_mesh_file(const std::string& folder, const std::string& link, std::size_t part) {
-  return folder + "/" + file_name_of(link) + "_part_" + std::to_string(part) + ".stl";
+  return folder + "/" + file_name_of(link) + "_part_" + std::to_string(part) + ".obj";
 }
 
 std::string robot_to_urdf(const RobotModel& model, const std::string& name, const std::string& folder,

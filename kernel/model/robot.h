@@ -1,5 +1,5 @@
 // Robots as data: links with masses, convex collision parts and looks; joints with limits, friction
-// and motors; surfaces that move (the belts of tracks). Read by World::add_robot(); made by
+// and motors; surfaces that move (the belts of tracks). Read by World::Robots::add(); made by
 // kernel/robot for the bundled ones and from URDF files by io/robot.
 //
 // Frames are those of URDF: the frame of a link is that of its parent joint at the joint's zero. The frame of

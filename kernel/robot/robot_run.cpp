@@ -7,6 +7,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/surroundings/solid_surface.h"
+#include "kernel/world/world_robots.h"
 
 namespace rubble {
 namespace {
@@ -15,8 +16,6 @@ namespace {
 constexpr double kMostDepth = 0.005;
 constexpr double kStuckDistance = 0.02;  // in a second; unit: m
 constexpr double kMovedDistance = 0.01;  // unit: m
-constexpr double kFeltReach = 60;  // about the Z axis, as far as surroundings are felt; unit: m
-constexpr double kSurroundingsFriction = 0.8;  // of asphalt and walls, as of concrete; unit: 1
 
 WorldOptions world_options(const RobotRunOptions& options) {
   WorldOptions world;
@@ -68,12 +67,12 @@ RobotRun::RobotRun(const Pile& pile, const PileState& state, const RobotRunOptio
 }
 
 int RobotRun::add(const RobotModel& model, const Pose& world_from_base, RobotController controller) {
-  const int robot = world_.add_robot(model, world_from_base);
+  const int robot = world_.robots().add(model, world_from_base);
   Driven driven;
   driven.base = world_from_base;
   driven.controller = std::move(controller);
   driven.start = driven.last = driven.second_ago =
-      world_.robot_state(robot).links[model.lead()].world_from_link.translation;
+      world_.robots().state(robot).links[model.lead()].world_from_link.translation;
   driven.summary.lowest = driven.start.z;
   driven.work.assign(model.joints.size(), 0);
   robots_.push_back(driven);
@@ -83,24 +82,24 @@ int RobotRun::add(const RobotModel& model, const Pose& world_from_base, RobotCon
 void RobotRun::control() {
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const int robot = int(i);
-    RobotSense sense{world_.time(), world_.robot_state(robot), world_.robot_contacts(robot)};
-    if (!sense.state.lost) world_.set_command(robot, robots_[i].controller(sense));
+    RobotSense sense{world_.time(), world_.robots().state(robot), world_.robots().contacts(robot)};
+    if (!sense.state.lost) world_.robots().set_command(robot, robots_[i].controller(sense));
   }
 }
 
 // What is staked has no contacts with what is fixed: the base alone, free to move, has them.
 std::vector<RobotContact> RobotRun::find_base_contacts(int robot) const {
   RobotModel base;
-  base.name = world_.robot_model(robot).name;
-  base.links = {world_.robot_model(robot).links[0]};
+  base.name = world_.robots().model(robot).name;
+  base.links = {world_.robots().model(robot).links[0]};
   World probe(laid_.types, world_options(options_), laid_.assemblies);
   probe.lay(laid_, pile_, true);
   probe.set_step(options_.step, options_.substeps);
-  probe.add_robot(base, robots_[std::size_t(robot)].base);
+  probe.robots().add(base, robots_[std::size_t(robot)].base);
   if (surroundings_) probe.add_surface(surroundings_, kSurroundingsFriction);
   probe.step();
-  std::vector<RobotContact> contacts = probe.robot_contacts(0);
-  const int first = probe.robot_piece(0), own = world_.robot_piece(robot);
+  std::vector<RobotContact> contacts = probe.robots().contacts(0);
+  const int first = probe.robots().first_piece(0), own = world_.robots().first_piece(robot);
   for (RobotContact& c : contacts) {
     c.piece = c.piece == first ? own : c.piece == first + 1 ? surface_ : c.piece;
   }
@@ -119,10 +118,10 @@ std::string RobotRun::name_of(int piece) const {
 void RobotRun::check_room() const {
   std::vector<Diagnostic> mistakes;
   for (std::size_t i = 0; i < robots_.size(); ++i) {
-    const int first = world_.robot_piece(int(i));
-    const RobotModel& model = world_.robot_model(int(i));
+    const int first = world_.robots().first_piece(int(i));
+    const RobotModel& model = world_.robots().model(int(i));
     RobotContact worst;
-    std::vector<RobotContact> contacts = world_.robot_contacts(int(i));
+    std::vector<RobotContact> contacts = world_.robots().contacts(int(i));
     if (model.tube) {
       const std::vector<RobotContact> of_base = find_base_contacts(int(i));
       contacts.insert(contacts.end(), of_base.begin(), of_base.end());
@@ -148,10 +147,10 @@ void RobotRun::measure() {
   const std::int64_t second = period(1, options_.step);
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     Driven& r = robots_[i];
-    const RobotState state = world_.robot_state(int(i));
+    const RobotState state = world_.robots().state(int(i));
     r.summary.lost = state.lost;
     if (state.lost) continue;
-    const Vec3 at = state.links[world_.robot_model(int(i)).lead()].world_from_link.translation;
+    const Vec3 at = state.links[world_.robots().model(int(i)).lead()].world_from_link.translation;
     r.summary.path += distance(at, r.last);
     r.summary.distance = distance(at, r.start);
     r.summary.lowest = std::min(r.summary.lowest, at.z);
@@ -184,7 +183,7 @@ RobotRunResult RobotRun::finish() {
   RobotRunResult result;
   result.track = recorder_.take();
   for (std::size_t i = 0; i < robots_.size(); ++i) {
-    result.first_piece.push_back(world_.robot_piece(int(i)));
+    result.first_piece.push_back(world_.robots().first_piece(int(i)));
     result.robots.push_back(robots_[i].summary);
   }
   for (std::size_t i = 0; i < pile_.pieces.size(); ++i) {

@@ -73,6 +73,9 @@ class RobotRun {
   void step();
   RobotRunResult finish();
 
+  // Before the next step: see World::apply_impulse().
+  void apply_impulse(int piece, const Vec3& point, const Vec3& impulse) { world_.apply_impulse(piece, point, impulse); }
+
   const World& world() const { return world_; }
   std::int64_t steps() const { return steps_; }  // since begin()
   // So far: final up to its last sample. Until finish().

@@ -6,12 +6,29 @@
 #include "kernel/base/portable_math.h"
 #include "kernel/structure/building.h"
 #include "kernel/structure/standing.h"
+#include "kernel/world/world_structures.h"
 
 namespace rubble {
 namespace {
 
 constexpr double kSinkingTime = 2;     // of a footing; unit: s
 constexpr double kSinkingStep = 0.05;  // each step is found by a solution of all stresses; unit: s
+
+BuildingState describe_building(const World& world, int first, int count) {
+  BuildingState state;
+  state.first = first, state.count = count;
+  for (int i = first; i < first + count; ++i) {
+    const std::vector<int> bound = world.structures().bound_with(i);
+    if (bound.size() < 2 || bound.front() != i || world.piece(i).status == PieceStatus::lost) continue;
+    state.bodies.emplace_back(bound.begin(), bound.end());
+  }
+  state.ties = world.structures().ties();
+  return state;
+}
+
+std::shared_ptr<const BuildingStructures> structures_of(const Pile& pile) {
+  return pile.structures ? pile.structures : std::make_shared<const BuildingStructures>(build_structures(pile.building));
+}
 
 }  // namespace
 
@@ -20,7 +37,7 @@ BuildingCollapse::BuildingCollapse(World& world, const Pile& pile, const SettleO
       motion_(pile.building.cause, pile.building.seed, options.step),
       step_length_(options.step) {
   const BuildingSpec& building = building_;
-  const auto built = pile.structures ? pile.structures : std::make_shared<const BuildingStructures>(build_structures(building));
+  const auto built = structures_of(pile);
   const Structure& damaged = built->damaged;
   const std::vector<SectionForces> before = check_stands(built->whole, options.gravity);
   std::vector<SectionForces> settled;  // of the bonds that are left
@@ -82,15 +99,16 @@ bool BuildingCollapse::goes_on() const {
 }
 
 BuildingState BuildingCollapse::state(const World& world) const {
-  BuildingState state;
-  state.first = collapse_->first_piece(), state.count = collapse_->piece_count();
-  for (int i = state.first; i < state.first + state.count; ++i) {
-    const std::vector<int> bound = world.bound_with(i);
-    if (bound.size() < 2 || bound.front() != i || world.piece(i).status == PieceStatus::lost) continue;
-    state.bodies.emplace_back(bound.begin(), bound.end());
-  }
-  state.ties = world.ties();
-  return state;
+  return describe_building(world, collapse_->first_piece(), collapse_->piece_count());
+}
+
+BuildingState find_building_state(const World& world, const Pile& pile) {
+  const auto built = structures_of(pile);
+  const Structure& building = built->damaged;
+  const int type = pile.building_first_type, end = type + int(building.types.size());
+  int first = 0;  // after what is placed
+  while (first < world.size() && (world.piece(first).type < type || world.piece(first).type >= end)) ++first;
+  return describe_building(world, first, int(building.pieces.size()));
 }
 
 void BuildingCollapse::before_step() {

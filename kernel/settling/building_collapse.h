@@ -45,5 +45,7 @@ class BuildingCollapse {
 // The types of a building's pieces, in their order: Pile::types must have them from its
 // building_first_type on.
 std::vector<PieceType> make_building_types(const BuildingSpec& building);
+// BuildingCollapse::state() where the collapse itself is gone. world: the one that the pile's building collapsed in.
+BuildingState find_building_state(const World& world, const Pile& pile);
 
 }  // namespace rubble

@@ -5,6 +5,7 @@
 #include "kernel/base/inertia.h"
 #include "kernel/settling/collapse_impl.h"
 #include "kernel/structure/remaining_bars.h"
+#include "kernel/world/world_structures.h"
 
 namespace rubble {
 namespace {
@@ -31,7 +32,7 @@ Collapse::Impl::Impl(World& w, const Structure& s, int first_type, const Collaps
   }
   first = world.add(pieces);
   lead_of.assign(pieces.size(), 0);
-  world.bind(first, int(pieces.size()));
+  world.structures().bind(first, int(pieces.size()));
   report.bonds = int(s.bonds.size());
   // What nothing anchors from the start falls at once.
   replace(0, find_groups(structure, status), true);
@@ -86,14 +87,14 @@ void Collapse::Impl::replace(std::int32_t lead, const std::vector<BondGroup>& gr
     part.fixed = group.anchored;
     split.push_back(std::move(part));
   }
-  if (split.size() > 1 || !split[0].fixed) world.split(split);
+  if (split.size() > 1 || !split[0].fixed) world.structures().split(split);
 }
 
 // What touches the pieces of each body, by its lead.
 std::map<std::int32_t, Collapse::Impl::Touches> Collapse::Impl::find_touches() const {
   std::map<std::int32_t, Touches> touches;
   const int count = int(structure.pieces.size());
-  for (const ContactImpulse& c : world.contact_impulses()) {
+  for (const ContactImpulse& c : world.structures().contact_impulses()) {
     const std::int32_t piece = c.piece - first;
     if (piece < 0 || piece >= count || !parts.count(lead_of[piece])) continue;
     const Pose pose = world.piece(c.piece).world_from_body;
@@ -117,7 +118,7 @@ void Collapse::Impl::tie(const std::vector<BondFailure>& failures) {
       t.piece_a += first;
       if (t.piece_b != kFoundation) t.piece_b += first;
       if (f.mode == FailureMode::shear) t.bending = 0;  // what slides is not held sideways
-      world.add_tie(t);
+      world.structures().add_tie(t);
       ++report.ties;
     }
   }
@@ -134,7 +135,7 @@ int Collapse::Impl::lead_in_world(int piece) const {
 
 // Adds to the speed of the whole body of a piece.
 void Collapse::Impl::set_motion(int piece, const Vec3& gained, const Vec3& angular) {
-  world.set_velocity(piece, world.centre_velocity(piece) + gained, angular);
+  world.set_velocity(piece, world.structures().centre_velocity(piece) + gained, angular);
 }
 
 }  // namespace rubble

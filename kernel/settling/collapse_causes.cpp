@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/settling/collapse_impl.h"
+#include "kernel/world/world_structures.h"
 
 namespace rubble {
 namespace {
@@ -24,7 +25,7 @@ Vec3 Collapse::Impl::strike_force() const {
   if (is_free(lead)) {
     const Vec3 moved = world.piece(first + struck).world_from_body.translation - struck_from;
     if (dot(moved, striker.direction) > driven) return {};
-    const double faster = striker.speed - dot(world.centre_velocity(lead), striker.direction);
+    const double faster = striker.speed - dot(world.structures().centre_velocity(lead), striker.direction);
     const double mass = 1 / (1 / striker.mass + 1 / world.mass(lead));
     force = std::min(force, std::max(0.0, faster) * mass / options.step);
   }

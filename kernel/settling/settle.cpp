@@ -7,6 +7,8 @@
 #include "kernel/base/error.h"
 #include "kernel/settling/building_collapse.h"
 #include "kernel/world/world.h"
+#include "kernel/world/world_diagnostics.h"
+#include "kernel/world/world_rest.h"
 #include "kernel/world/world_snapshot.h"
 
 namespace rubble {
@@ -52,7 +54,7 @@ class Settling {
     const bool last = k + 1 == pile_.layers.size();
     bool rested = false;
     if (!last && options_.schedule == Schedule::planes) {
-      rested = run_until(options_.layer_time_limit, [this] { return world_.all_have_touched(); });
+      rested = run_until(options_.layer_time_limit, [this] { return world_.diagnostics().all_have_touched(); });
     } else {
       rested = last ? verify_rest() : run_to_rest(options_.layer_time_limit);
     }
@@ -83,7 +85,7 @@ class Settling {
   void spawn(std::size_t k) {
     const bool touched_only = options_.schedule == Schedule::planes;
     const double bottom =
-        std::max(pile_.spawn_bottom, world_.highest_point(touched_only) + kSpawnClearance);
+        std::max(pile_.spawn_bottom, world_.diagnostics().highest_point(touched_only) + kSpawnClearance);
     std::vector<NewPiece> pieces;
     for (const Placement& placement : pile_.layers[k].pieces) {
       NewPiece piece;
@@ -99,7 +101,7 @@ class Settling {
 
   bool run_to_rest(double limit) {
     return run_until(limit, [this] {
-      return !is_collapsing() && world_.at_rest(options_.rest_speed, options_.rest_angular_speed);
+      return !is_collapsing() && world_.rest().reached(options_.rest_speed, options_.rest_angular_speed);
     });
   }
 
@@ -107,19 +109,19 @@ class Settling {
   bool verify_rest() {
     const bool rests = run_until(options_.final_time_limit, [this] {
       const double speed = options_.rest_speed, angular_speed = options_.rest_angular_speed;
-      if (world_.verifying_rest()) {
-        return world_.rest_verified(speed, angular_speed) &&
-               world_.deepest_overlap().depth <= options_.rest_overlap;
+      if (world_.rest().verifying()) {
+        return world_.rest().verified(speed, angular_speed) &&
+               world_.diagnostics().deepest_overlap().depth <= options_.rest_overlap;
       }
       if (is_collapsing()) return false;
       const bool waited = double(layer_steps_) * options_.step > kVerifyAfter;
-      if (waited || world_.at_rest(speed, angular_speed)) {
-        world_.begin_rest_verification(options_.final_time_limit - double(layer_steps_) * options_.step);
+      if (waited || world_.rest().reached(speed, angular_speed)) {
+        world_.rest().begin_verification(options_.final_time_limit - double(layer_steps_) * options_.step);
       }
       return false;
     });
-    overlap_ = world_.deepest_overlap();
-    if (rests) world_.put_all_to_sleep();
+    overlap_ = world_.diagnostics().deepest_overlap();
+    if (rests) world_.rest().put_all_to_sleep();
     return rests;
   }
 
@@ -153,7 +155,7 @@ class Settling {
     p.simulated = world_.time();
     p.pieces = world_.size();
     p.awake = world_.awake_count();
-    p.verifying = world_.verifying_rest();
+    p.verifying = world_.rest().verifying();
     if (!collapse_) p.make_checkpoint = [this] { return make_checkpoint(); };
     if (collapse_) p.collapse = collapse_->report();
     return progress_(p);
@@ -178,7 +180,7 @@ class Settling {
       PieceState piece = world_.piece(i);
       const double v2 = dot(piece.linear_velocity, piece.linear_velocity);
       const double w2 = dot(piece.angular_velocity, piece.angular_velocity);
-      if (piece.status == PieceStatus::moving && world_.is_touching(i) && world_.within_rest_tolerance(i) &&
+      if (piece.status == PieceStatus::moving && world_.is_touching(i) && world_.rest().within_tolerance(i) &&
           v2 < options_.rest_speed * options_.rest_speed &&
           w2 < options_.rest_angular_speed * options_.rest_angular_speed) {
         piece.status = PieceStatus::resting;
@@ -186,7 +188,7 @@ class Settling {
       state.pieces.push_back(piece);
     }
     state.joints = world_.joints();
-    if (collapse_) state.building = collapse_->state(world_);
+    if (pile_.building.given()) state.building = collapse_ ? collapse_->state(world_) : find_building_state(world_, pile_);
     state.steps = world_.steps();
     state.simulated = world_.time();
     state.settled = settled;
@@ -276,6 +278,15 @@ PileState resume_settling(World& world, const SettleCheckpoint& checkpoint, cons
   options.validate();
   check_checkpoint(checkpoint, pile, options);
   return Settling(world, pile, options, progress, observe).resume(checkpoint);
+}
+
+SettleCheckpoint make_rest_checkpoint(const World& world, const Pile& pile, const SettleOptions& options) {
+  SettleCheckpoint checkpoint;
+  checkpoint.work = hash_work(pile, options);
+  checkpoint.layers = std::int32_t(pile.layers.size());
+  checkpoint.layer_steps = 1;
+  checkpoint.world = encode_snapshot(*world.snapshot());
+  return checkpoint;
 }
 
 WorldOptions calc_world_options(const SettleOptions& options) {

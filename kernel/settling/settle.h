@@ -42,8 +42,8 @@ struct SettleProgress {
   int pieces = 0, awake = 0;
   bool verifying = false;     // rest is being verified: motionless pieces may be awake
   CollapseReport collapse;    // of a building, so far
-  // Makes a checkpoint of this moment; may be called in the callback only. Empty for a building: its stresses are
-  // not saved, so settling starts again.
+  // Makes a checkpoint of this moment; may be called in the callback only. Empty while a building collapses: its
+  // stresses are not saved, so settling starts again.
   std::function<SettleCheckpoint()> make_checkpoint;
 };
 // Called after each step; return false to stop early (the state is then not settled).
@@ -69,6 +69,9 @@ PileState resume_settling(const SettleCheckpoint& checkpoint, const Pile& pile,
 PileState resume_settling(World& world, const SettleCheckpoint& checkpoint, const Pile& pile,
                           const SettleOptions& options = {}, const SettleCallback& progress = {},
                           const WorldObserver& observe = {});
+// Of a world in which this pile has settled, or was stopped, and what was done to it since: resuming asks again whether
+// all of it rests. Not while a building collapses, whose stresses are not saved: its bodies would not break any more.
+SettleCheckpoint make_rest_checkpoint(const World& world, const Pile& pile, const SettleOptions& options);
 WorldOptions calc_world_options(const SettleOptions& options);
 
 }  // namespace rubble

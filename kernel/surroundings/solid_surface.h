@@ -10,4 +10,8 @@ namespace rubble {
 // are drawn: without leaves, tufts, puddles and the skyline. Empty where nothing is there. reach: unit: m
 TriangleMesh make_solid_surface(const Surroundings& surroundings, double reach);
 
+// As robots feel it.
+inline constexpr double kFeltReach = 60;              // about the Z axis; unit: m
+inline constexpr double kSurroundingsFriction = 0.8;  // of asphalt and walls, as of concrete; unit: 1
+
 }  // namespace rubble

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kernel/base/error.h"
+#include "kernel/multibody/joints/joint.h"
 #include "kernel/world/world_impl.h"
 
 namespace rubble {
@@ -41,8 +42,6 @@ void check(const NewPiece& piece, int types, int index) {
   }
 }
 
-// What hangs by a joint rests when it has stayed in place for this long; unit: s.
-constexpr double kHangingTime = 0.15;
 
 }  // namespace
 
@@ -107,8 +106,6 @@ bool World::is_awake(int index) const { return impl_->bodies.acting(index).awake
 bool World::is_touching(int index) const { return impl_->bodies.acting(index).touching; }
 double World::mass(int index) const { return impl_->data.bodies[index].mass; }
 
-bool World::verifying_rest() const { return impl_->data.verification_steps >= 0; }
-
 int World::awake_count() const {
   int count = 0;
   for (const Body& body : impl_->data.bodies) count += body.awake;
@@ -172,49 +169,30 @@ void World::wake_all() {
   for (int i = 0; i < size(); ++i) impl_->waking.wake(i);
 }
 
-void World::begin_rest_verification(double limit) {
-  wake_all();
-  for (Body& body : impl_->data.bodies) {
-    body.later_pose = body.world_from_com;
-    body.later_steps = 0;
-  }
-  impl_->data.verification_steps = impl_->data.all_awake_since = 0;
-  impl_->data.verification_limit = std::int64_t(std::min(limit, kLongestVerification) / impl_->settings.options.step);
-  impl_->data.undamped_since = -1;
-  impl_->data.undamped_tries = 0;
-}
-
 void World::set_sleeping(bool allowed) {
   impl_->settings.options.sleeping = allowed;
   if (!allowed) wake_all();
 }
 
-bool World::at_rest(double speed, double angular_speed) const {
-  for (const Body& body : impl_->data.bodies) {
-    if (!body.awake) continue;
-    if (!body.touching) return false;
-    const Vec3 v(body.linear), w(body.angular);
-    if (dot(v, v) >= speed * speed || dot(w, w) >= angular_speed * angular_speed) return false;
-    // What hangs stands still for a moment where it turns back.
-    if (body.tree >= 0 && body.still_steps < int(kHangingTime / impl_->settings.options.step)) return false;
+void World::set_step(double step, int substeps) {
+  Impl& w = *impl_;
+  if (!(step >= 1e-3 && step <= 1.0 / 30 + 1e-12)) {
+    throw InputError({"", 0, "step", "out of range", "1/1000 to 1/30 s", std::to_string(step), ""});
   }
-  return true;
+  if (substeps < 1 || substeps > 64) {
+    throw InputError({"", 0, "substeps", "out of range", "1 to 64", std::to_string(substeps), ""});
+  }
+  const float longer = float(step / w.settings.options.step);
+  for (Body& body : w.data.bodies) {
+    body.load *= longer;
+    body.lost_support *= longer;
+  }
+  for (Contact& contact : w.data.contacts) contact.rest_pressed *= longer;
+  for (Tie& tie : w.data.ties) tie.contact.rest_pressed *= longer;
+  w.settings.options.step = step;
+  w.settings.solver.step = w.settings.narrow.step = float(step);
+  w.settings.solver.substeps = substeps;
 }
-
-bool World::rest_verified(double speed, double angular_speed) const {
-  if (!verifying_rest() || impl_->data.all_awake_since < 0) return false;
-  if (!at_rest(speed, angular_speed)) return false;
-  for (int i = 0; i < size(); ++i)
-    if (!within_rest_tolerance(i)) return false;
-  return true;
-}
-
-bool World::within_rest_tolerance(int index) const {
-  const Body& body = impl_->bodies.acting(index);
-  return !body.awake || impl_->sleep.within_rest_tolerance(body);
-}
-
-void World::put_all_to_sleep() { impl_->sleep.put_all_to_sleep(impl_->step_pairs); }
 
 int World::add_surface(std::shared_ptr<const TriangleMesh> mesh, double friction) {
   Impl& w = *impl_;
@@ -232,6 +210,38 @@ int World::add_surface(std::shared_ptr<const TriangleMesh> mesh, double friction
   w.bodies.add(piece, &none);
   w.pairs.introduce(number);
   return number;
+}
+
+std::vector<JointState> World::joints() const {
+  const Impl& w = *impl_;
+  std::vector<JointState> joints;
+  for (const Tree& tree : w.data.trees) {
+    for (const TreeLink& link : tree.links) {
+      if (link.parent < 0) continue;
+      JointState joint;
+      joint.parent = tree.links[std::size_t(link.parent)].body;
+      joint.child = link.body;
+      joint.kind = kind_of(link.mobility);
+      joint.parent_from_joint = Pose{{}, w.data.bodies[joint.parent].com_in_type} * link.parent_from_joint;
+      joint.child_from_joint = Pose{{}, w.data.bodies[joint.child].com_in_type} * link.link_from_joint;
+      joint.rest = link.rest;
+      joint.rest_rotation = link.rest_rotation;
+      joints.push_back(joint);
+    }
+    for (const TreeLoop& loop : tree.loops) {
+      JointState joint;
+      joint.parent = tree.links[std::size_t(loop.link_a)].body;
+      joint.child = tree.links[std::size_t(loop.link_b)].body;
+      joint.kind = kind_of(loop.mobility);
+      joint.parent_from_joint = Pose{{}, w.data.bodies[joint.parent].com_in_type} * loop.a_from_joint;
+      joint.child_from_joint = Pose{{}, w.data.bodies[joint.child].com_in_type} * loop.b_from_joint;
+      joints.push_back(joint);
+    }
+  }
+  // A piece hangs on one other at most; then come the joints that close loops, as they were made.
+  std::stable_sort(joints.begin(), joints.end(),
+                   [](const JointState& a, const JointState& b) { return a.child < b.child; });
+  return joints;
 }
 
 }  // namespace rubble

@@ -13,10 +13,10 @@
 #include "kernel/world/phases/speed_limiter.h"
 #include "kernel/world/phases/ties.h"
 #include "kernel/world/phases/trees.h"
-#include "kernel/world/robots.h"
+#include "kernel/world/robot_trees.h"
 #include "kernel/world/state/groups.h"
 #include "kernel/world/tubes.h"
-#include "kernel/world/world.h"
+#include "kernel/world/world_diagnostics.h"
 
 namespace rubble {
 
@@ -51,7 +51,7 @@ struct World::Impl {
   Advance advance{data, settings, bodies, blocks, pool};
   Sleep sleep{data, settings, bodies, blocks, trees, waking, pool};
   Tubes tubes{types, data, bodies, pairs, trees, simbody_trees};
-  WorldRobots robots{types, data, settings, pairs, waking, trees, tubes, simbody_trees};
+  RobotTrees robots{types, data, settings, pairs, waking, trees, tubes, simbody_trees};
 
   // world_step.cpp
   void begin_stage(StepStage stage);

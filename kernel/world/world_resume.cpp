@@ -2,6 +2,7 @@
 // which run, program or machine settled it.
 #include "kernel/base/error.h"
 #include "kernel/world/world_impl.h"
+#include "kernel/world/world_rest.h"
 
 namespace rubble {
 namespace {
@@ -122,7 +123,7 @@ void World::lay(const Pile& pile, const PileState& state, bool fixed) {
   w.settings.options.sleeping = false;
   while (time() < kLoadingTime) step();
   w.settings.options.sleeping = sleeping;
-  put_all_to_sleep();
+  rest().put_all_to_sleep();
   w.lay_to_rest(state, tree_states);
   w.data.steps = 0;
 }

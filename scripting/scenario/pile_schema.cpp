@@ -30,6 +30,9 @@ void add_pile(Schema& k, PileScenario& p) {
       .between(0, 1e9);
   k.value("pile.layers", p.layers, "Number of layers, dropped one after another.").between(0, 1000);
   k.value("pile.pieces_per_layer", p.pieces_per_layer, "Number of pieces in each layer.").between(0, 100000);
+  k.value("pile.snapshot", p.snapshot,
+          "A saved moment of this pile that settling goes on from: a `.state` file of `rubble inspect`, relative to the "
+          "script. Not given: from the start.");
   k.list("pile.mix", p.mix,
           "The assets that layers are drawn from; empty: every asset of the packs, by its own weight.");
   k.item("pile.mix[].asset", p.mix, &MixItem::asset, "Name of an asset.").must();

@@ -107,7 +107,7 @@ void check_meshes(const OutputScenario& outputs, std::vector<Diagnostic>& mistak
     const std::string& written = outputs.meshes[i];
     if (std::find(names.begin(), names.end(), written) != names.end()) continue;
     mistakes.push_back({"", 0, "outputs.meshes[" + std::to_string(i + 1) + "]",
-                        "unknown format `" + written + "`", "one of ply, obj, glb, sdf", "", ""});
+                        "unknown format `" + written + "`", "one of ply, obj, glb, sdf, mjcf, usd, urdf", "", ""});
   }
 }
 
@@ -166,7 +166,7 @@ void check_smoothness(const Scenario& scenario, std::vector<Diagnostic>& mistake
 
 }  // namespace
 
-std::vector<std::string> export_names() { return {"ply", "obj", "glb", "sdf"}; }
+std::vector<std::string> export_names() { return {"ply", "obj", "glb", "sdf", "mjcf", "usd", "urdf"}; }
 
 std::vector<Diagnostic> find_mistakes(const Scenario& scenario) { return find_mistakes(MissionForm(scenario)); }
 

@@ -90,6 +90,9 @@ struct PileScenario {
   TerrainScenario terrain;         // below the pile
   BuildingSpec building;           // collapses before the first layer falls; its seed is that of the mission
   std::vector<FurnitureItem> furniture;  // of the building
+  // A moment of this pile that settling goes on from, instead of its start: a file of `rubble inspect`. Path relative to
+  // the script. Not given: from the start.
+  std::optional<std::string> snapshot{};
 };
 
 struct LightScenario {

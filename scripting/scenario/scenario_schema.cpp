@@ -372,7 +372,8 @@ void add_outputs(Schema& k, OutputScenario& o) {
   k.value("outputs.track", o.track,
           "The motion of every piece while the pile settled: track.bin, and track.glb, a glTF animation.");
   k.value("outputs.meshes", o.meshes,
-          "The settled pile in further formats: any of `ply`, `obj`, `glb`, `sdf`.");
+          "The settled pile in further formats: any of `ply`, `obj`, `glb`, `sdf`, `mjcf`, `usd`, `urdf`. The last four are "
+          "scenes for simulators, with all pieces fixed; `rubble export --dynamic` frees pieces.");
   k.value("outputs.groundtruth", o.groundtruth, "Poses of the camera in TUM format: groundtruth.txt.");
   k.value("outputs.sensors", o.sensors, "Readings of range finders, bumpers and so on: sensors/NAME.csv, where the mission has any.");
   k.value("outputs.preview", o.preview, "A contact sheet of colour, depth and the first LiDAR's scans from above: preview.png.");

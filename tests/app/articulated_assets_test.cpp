@@ -8,6 +8,8 @@
 #include "app/scene/build_scene.h"
 #include "kernel/settling/generator.h"
 #include "kernel/world/world.h"
+#include "kernel/world/world_diagnostics.h"
+#include "kernel/world/world_rest.h"
 #include "scripting/mission.h"
 
 namespace rubble::testing {
@@ -85,16 +87,16 @@ TEST_P(ArticulatedAsset, SettlesWithinItsLimitsAndDoesNotCreep) {
       most_bent = std::max(most_bent, std::abs(bend.angle));
     }
   };
-  const auto still = [&] { return world.at_rest(0.05, 0.2) && world.all_have_touched(); };
+  const auto still = [&] { return world.rest().reached(0.05, 0.2) && world.diagnostics().all_have_touched(); };
   bool rests = false;
   while (world.time() < 25 && !rests) {
     for (int i = 0; i < 10; ++i) world.step();
     check_joints();
     if (!still()) continue;
-    world.begin_rest_verification();
+    world.rest().begin_verification();
     for (int i = 0; i < 75 && !rests; ++i) {
       world.step();
-      rests = world.rest_verified(0.05, 0.2);
+      rests = world.rest().verified(0.05, 0.2);
     }
   }
   EXPECT_TRUE(rests) << "after " << world.time() << " s";

@@ -220,7 +220,7 @@ TEST_P(NightlyDocuments, CommandsRunAsTheyAreWritten) {
 constexpr const char* kRun[]{"README.md",         "docs/explanation/autonomy.md", "docs/explanation/collapse.md", "docs/reference/formats.md",
                             "docs/how_to/headless.md",  "docs/reference/lidar.md",
                             "docs/explanation/optics.md",    "docs/development/performance.md", "docs/explanation/search.md",
-                            "docs/explanation/sky.md",       "docs/explanation/surroundings.md", "docs/explanation/weather.md", "docs/how_to/gazebo.md"};
+                            "docs/explanation/sky.md",       "docs/explanation/surroundings.md", "docs/explanation/weather.md", "docs/how_to/simulators.md"};
 INSTANTIATE_TEST_SUITE_P(All, NightlyDocuments, ::testing::ValuesIn(kRun));
 
 // No document with something to run is left out above.

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "app/drive/controls.h"
+#include "app/drive/inspect/inspector.h"
+#include "tests/app/program.h"
 
 namespace rubble {
 namespace drive_controls_test {
@@ -52,6 +54,51 @@ TEST_F(DriveControls, ActionsComeOnceAndInOrder) {
   key(SDL_SCANCODE_L, true), key(SDL_SCANCODE_F, true);
   EXPECT_EQ(controls.take().actions, (std::vector<DriveAction>{DriveAction::lamp, DriveAction::fog}));
   EXPECT_TRUE(controls.take().actions.empty());
+}
+
+// Rows of a page's table: "|what|keys|gamepad|".
+std::string rows_of(const std::vector<KeyHelp>& help) {
+  std::string rows;
+  for (const KeyHelp& row : help) rows += "|" + std::string(row.what) + "|" + row.keys + "|" + row.gamepad + "|\n";
+  return rows;
+}
+
+TEST_F(DriveControls, ThePagesHaveTheKeysThatTheHelpShows) {
+  EXPECT_NE(testing::read_file(RUBBLE_SOURCE_DIR "/docs/how_to/drive.md").find(rows_of(all_key_help())), std::string::npos)
+      << rows_of(all_key_help());
+  EXPECT_NE(testing::read_file(RUBBLE_SOURCE_DIR "/docs/how_to/inspect.md").find(rows_of(all_inspector_help())), std::string::npos)
+      << rows_of(all_inspector_help());
+}
+
+TEST_F(DriveControls, TheMousePullsWithItsLeftButtonWhereTheRightOneLooks) {
+  const auto mouse = [](Controls& c, Uint32 type, int x, int y, Uint32 held) {
+    SDL_Event event{};
+    event.type = type;
+    if (type == SDL_MOUSEMOTION) {
+      event.motion.x = x, event.motion.y = y, event.motion.xrel = 10, event.motion.state = held;
+    } else {
+      event.button.x = x, event.button.y = y, event.button.button = SDL_BUTTON_LEFT;
+    }
+    c.handle(event);
+  };
+  Controls pulling(LeftButton::pulls);
+  mouse(pulling, SDL_MOUSEBUTTONDOWN, 30, 40, 0);
+  EXPECT_TRUE(pulling.pointer().pressed);
+  mouse(pulling, SDL_MOUSEMOTION, 50, 60, SDL_BUTTON_LMASK);
+  EXPECT_EQ(pulling.pointer().x, 50);
+  EXPECT_EQ(pulling.pointer().y, 60);
+  EXPECT_EQ(pulling.pointer().press_x, 30);
+  EXPECT_EQ(pulling.pointer().press_y, 40);
+  EXPECT_EQ(pulling.take().look_deg.z, 0) << "the left button does not turn";
+  mouse(pulling, SDL_MOUSEMOTION, 50, 60, SDL_BUTTON_RMASK);
+  EXPECT_LT(pulling.take().look_deg.z, 0);
+  mouse(pulling, SDL_MOUSEBUTTONUP, 50, 60, 0);
+  EXPECT_FALSE(pulling.pointer().pressed);
+  mouse(pulling, SDL_MOUSEBUTTONDOWN, 1, 1, 0);
+  pulling.release_all();
+  EXPECT_FALSE(pulling.pointer().pressed) << "the window lost the mouse";
+  mouse(controls, SDL_MOUSEMOTION, 50, 60, SDL_BUTTON_LMASK);
+  EXPECT_LT(controls.take().look_deg.z, 0) << "in a drive it turns";
 }
 
 TEST_F(DriveControls, AVirtualGamepadDrivesAndStopsWhenItIsUnplugged) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "app/drive/overlay.h"
+#include "app/drive/overlay/overlay.h"
 #include "kernel/robot/bundled.h"
 #include "kernel/robot/parts.h"
 #include "kernel/robot/robot_run.h"

@@ -47,8 +47,8 @@ for i in $(seq 100); do [ -s $d/display ] && break; sleep 0.1; done
 export DISPLAY=:$(cat $d/display)
 unset SDL_VIDEODRIVER
 find_window() {
-  until grep -q 'drive: ready' $d/stderr; do kill -0 $drive || exit 1; sleep 0.1; done
-  w=$(xdotool search --sync --onlyvisible --name 'rubble drive' | head -1)
+  until grep -q "${1:-drive}: ready" $d/stderr; do kill -0 $drive || exit 1; sleep 0.1; done
+  w=$(xdotool search --sync --onlyvisible --name "rubble ${1:-drive}" | head -1)
 }
 )";
 
@@ -154,6 +154,57 @@ TEST(DriveWindow, ARobotDrivenByKeysRunsAgainWithTheSameBits) {
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_GT(read_file(scratch / "out/leg_001.track").size(), 1000U);
   EXPECT_TRUE(read_file(scratch / "out/leg_001.track") == read_file(scratch / "leg/robots/track.bin"));
+}
+
+// Bricks, a block that can be pulled and, beside it, a table that a ball fits under. Stopped at once, shown with everything
+// and stepped; then the block is pulled at rest. The program itself saves the pictures, between two others.
+const char* const kBlock = R"(return rubble.mission {
+  seed = 4,
+  pile = { layers = 1, pieces_per_layer = 3, mix = { { asset = "brick" } }, spawn_position = { 0, 1, 1.5 },
+           spawn_bounds = { 0.4, 0.4, 0.3 },
+           placed = { { box = { 0.1, 0.6, 0.4 }, position = { 0.9, 0, 0.2 } }, { box = { 0.1, 0.6, 0.4 }, position = { 1.5, 0, 0.2 } },
+                      { box = { 0.8, 0.6, 0.1 }, position = { 1.2, 0, 0.45 } },
+                      { box = { 0.8, 0.8, 0.8 }, position = { 0, 0, 0.4005 }, fixed = false } } },
+  voids = { voxel = 0.05, radius = 0.1 },
+  camera = { width = 32, height = 24 },
+  trajectory = { duration = 1, rate_hz = 2, waypoints = { { position = { -0.5, 0, 1.2 }, look_at = { 0, 0, 0.5 } } } },
+  outputs = { bag = false, rawlog = false, simplemap = false, stl = false, preview = false },
+})";
+
+const char* const kInspect = R"(
+$program inspect $d/m.lua --size 240x120 --quiet --out $d/out >$d/stdout 2>$d/stderr & drive=$!
+find_window inspect
+xdotool windowfocus $w
+await() { until grep -q "$1" $d/stderr; do kill -0 $drive || exit 1; sleep 0.1; done; }
+shot() { xdotool key p; n=$((${n:-0} + 1)); await picture_00$n; }
+xdotool key space; shot
+for key in v c o; do xdotool key $key; pause 0.3; shot; xdotool key $key; done
+xdotool key m; await 'voids are mapped'; shot; xdotool key m
+xdotool key period; pause 0.3; xdotool key k; await moment_001
+xdotool key space; await 'the pile rests'
+xdotool mousemove --window $w 120 62 mousedown 1 mousemove --window $w 150 20; pause 1; xdotool mouseup 1
+xdotool key k; await moment_002
+xdotool key Escape
+wait $drive
+)";
+
+TEST(InspectWindow, StepsShowsAndPullsAndItsMomentsGoOnAsMissions) {
+  const ScratchFolder scratch;
+  write_file(scratch / "m.lua", kBlock);
+  ASSERT_EQ(drive(scratch, kInspect), 0) << read_file(scratch / "stderr");
+  std::vector<std::string> pictures;
+  for (int i = 1; i <= 5; ++i) pictures.push_back(read_file(scratch / ("out/picture_00" + std::to_string(i) + ".png")));
+  for (std::size_t i = 1; i < pictures.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) EXPECT_NE(pictures[i], pictures[k]) << "pictures " << i << " and " << k;
+  // Untouched it comes to the rest of the mission itself, pulled to another one.
+  EXPECT_NE(read_file(scratch / "out/moment_001.lua").find("Nothing was touched"), std::string::npos);
+  EXPECT_NE(read_file(scratch / "out/moment_002.lua").find("pieces were pulled"), std::string::npos) << read_file(scratch / "stderr");
+  for (const auto& [mission, out] : {std::pair<std::string, std::string>{"m.lua", "a"}, {"out/moment_001.lua", "b"}, {"out/moment_002.lua", "c"}}) {
+    const Outcome run = run_rubble("settle " + (scratch / mission) + " --quiet --out " + (scratch / out));
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  }
+  EXPECT_TRUE(read_file(scratch / "a/pile.bin") == read_file(scratch / "b/pile.bin"));
+  EXPECT_FALSE(read_file(scratch / "a/pile.bin") == read_file(scratch / "c/pile.bin"));
 }
 
 TEST(DriveWindow, SaysWhatToDoWithoutADisplay) {

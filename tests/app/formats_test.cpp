@@ -9,7 +9,7 @@
 #include "app/formats/class_labels.h"
 #include "app/formats/recording_formats.h"
 #include "app/provenance/earlier_files.h"
-#include "io/mesh/pile_export.h"
+#include "io/scenes/pile_export.h"
 #include "scripting/scenario/scenario_schema.h"
 
 namespace rubble::testing {

@@ -118,10 +118,10 @@ const Allowed kRender = stack(
     {"kernel/base/"});
 
 const Allowed kIo = stack(
-    {"io/base/", "io/image/", "io/import/", "io/mesh_formats/", "io/mesh/", "io/state/", "io/robot/", "io/recording/", "io/ros/", "io/mrpt/",
+    {"io/base/", "io/image/", "io/import/", "io/mesh_formats/", "io/mesh/", "io/state/", "io/robot/", "io/scenes/", "io/recording/", "io/ros/", "io/mrpt/",
      "io/datasets/", "io/playback/", "io/live/"},
     {"kernel/base/", "kernel/model/fines.h", "kernel/model/pile_state.h", "kernel/model/pile.h", "kernel/model/track.h", "kernel/model/robot.h",
-     "kernel/model/assembly.h",
+     "kernel/model/assembly.h", "kernel/geometry/hull.h",
      "kernel/settling/settle_checkpoint.h", "render/scene/", "render/streams/image_streams.h"});
 
 // Of voids and ways through them.
@@ -142,7 +142,7 @@ const Allowed kScripting = stack(
 
 const Allowed kApp = stack(
     {"app/support/", "app/formats/", "app/provenance/", "app/assets/", "app/measures/",
-     "app/estimate/", "app/planning/", "app/victims/", "app/fines/", "app/surroundings/", "app/scene/", "app/mission/", "app/sensors/", "app/robots/", "app/control/", "app/session/", "app/pipeline/", "app/batch/", "app/report/", "app/card/",
+     "app/estimate/", "app/planning/", "app/victims/", "app/fines/", "app/surroundings/", "app/scene/", "app/mission/", "app/sensors/", "app/robots/", "app/control/", "app/simulators/", "app/session/", "app/pipeline/", "app/batch/", "app/report/", "app/card/",
      "app/eval/scores/", "app/eval/sfm/", "app/eval/map/", "app/search/", "app/navigate/", "app/navigate_ros1/", "app/view/", "app/drive/", "app/command_line/",
      "app/commands/eval/", "app/commands/assets/", "app/commands/publish/", "app/commands/",
      "app/main.cpp"},
@@ -261,7 +261,7 @@ const std::map<std::string, Prefixes> kDoors{
       "app/navigate/mission_to_drive.cpp", "app/navigate_ros1/main.cpp",
       "app/robots/robot_files.cpp", "app/planning/flight.cpp", "app/provenance/", "app/report/",
       "app/search/program_agent.cpp", "app/support/", "app/victims/place_victims.cpp", "app/view/", "bench/",
-      "io/datasets/frames_recorder.cpp", "io/mesh_formats/gltf_document.h", "io/mesh/glb_writer.cpp", "io/recording/recording.cpp",
+      "io/datasets/frames_recorder.cpp", "io/mesh_formats/gltf_document.h", "io/mesh/glb_writer.cpp", "io/recording/recording.cpp", "io/scenes/scene_text.cpp",
       "io/voids/void_json.cpp", "scripting/reference/json_schema.cpp",
       "scripting/scenario/scenario_json.cpp"}}};
 

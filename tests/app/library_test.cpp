@@ -36,11 +36,11 @@ TEST(Library, PublicHeadersIncludeOnlyPublicOnes) {
   std::string all;
   for (const auto& file : fs::recursive_directory_iterator(root)) {
     if (!file.is_regular_file()) continue;
-    all += "#include \"" + fs::relative(file.path(), root).string() + "\"\n";
+    all += "#include <rubble/" + fs::relative(file.path(), root).string() + ">\n";
     ++count;
   }
   EXPECT_GT(count, 30);
-  const std::string compile = "g++ -std=c++17 -Wall -Wextra -fsyntax-only -I there/include/rubble all.cpp";
+  const std::string compile = "g++ -std=c++17 -Wall -Wextra -fsyntax-only -I there/include all.cpp";
   write_file(scratch / "all.cpp", all);
   EXPECT_EQ(shell(scratch, compile), "exit 0\n");
   // The control: one that is missing is noticed.
@@ -88,8 +88,31 @@ TEST(Library, AConsumersProgramHasTheResultsOfThisTree) {
   EXPECT_EQ(pile.pieces.size(), 80u);
   EXPECT_NE(theirs.find(hex64(pile.state_hash())), std::string::npos) << theirs;
   EXPECT_NE(shell(scratch, "build/settle_pile verify 7 ours").find("the same\nexit 0"), std::string::npos);
+  const std::string stepped = shell(scratch, "build/step_world");
+  EXPECT_NE(stepped.find("and rests\nfrom the snapshot on: the same bits\nexit 0"), std::string::npos) << stepped;
+  EXPECT_EQ(stepped, shell(scratch, "'" RUBBLE_EXAMPLES "/step_world'"));
   // The control: another seed, another pile.
   EXPECT_NE(shell(scratch, "build/settle_pile verify 8 ours").find("not the same\nexit 5"), std::string::npos);
+}
+
+// What is asked of Rubble's folder within another build: its libraries and nothing else, by the prefix alone.
+TEST(Library, IsAFolderOfAnotherBuild) {
+  const ScratchFolder scratch;
+  write_file(scratch / "CMakeLists.txt",
+             "cmake_minimum_required(VERSION 3.25)\nproject(theirs LANGUAGES C CXX)\nadd_subdirectory(\"" RUBBLE_SOURCE_DIR
+             "\" rubble)\nadd_executable(step_world \"" RUBBLE_SOURCE_DIR
+             "/examples/cpp/step_world.cpp\")\ntarget_link_libraries(step_world PRIVATE Rubble::kernel)\n"
+             "file(GENERATE OUTPUT seen.txt CONTENT \"$<TARGET_PROPERTY:Rubble::kernel,INTERFACE_INCLUDE_DIRECTORIES>\")\n");
+  const std::string configured = shell(scratch, "cmake -S . -B out -G Ninja && ninja -C out -t targets all");
+  ASSERT_NE(configured.find("exit 0\n"), std::string::npos) << configured;
+  EXPECT_EQ(read_file(scratch / "out/seen.txt"), (scratch.path() / "out/rubble/include").string());
+  EXPECT_NE(configured.find("step_world: phony"), std::string::npos) << configured;
+  for (const char* other : {"kernel_tests", "librubble_render.a", "rubble_assets", "hash_probe"})
+    EXPECT_EQ(configured.find(other), std::string::npos) << other;
+  const std::string dry = shell(scratch, "ninja -C out -n step_world -v | grep step_world.cpp");
+  EXPECT_NE(dry.find("-I"), std::string::npos) << dry;
+  EXPECT_EQ(dry.find("-Wshadow"), std::string::npos) << dry;
+  EXPECT_EQ(dry.find("-I" RUBBLE_SOURCE_DIR " "), std::string::npos) << dry;
 }
 
 TEST(Library, SaysWhatItCannotGive) {

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "tests/app/program.h"
 
@@ -63,7 +64,8 @@ TEST_F(Readers, ExportWritesEveryFormatOfAFinishedRun) {
   const Outcome all = run_rubble("export " + file("") + " --quiet --out " + out);
   EXPECT_EQ(all.exit_code, 0) << all.err;
   for (const char* name : {"pile.stl", "pile.ply", "pile.obj", "pile.mtl", "pile.glb",
-                           "sdf/pile.sdf", "sdf/meshes/materials.mtl"})
+                           "sdf/pile.sdf", "sdf/meshes/materials.mtl", "mjcf/pile.xml", "usd/pile.usda",
+                           "urdf/fixed.urdf", "urdf/scene.json"})
     EXPECT_FALSE(read_file(out + "/" + name).empty()) << name;
   EXPECT_TRUE(read_file(out + "/pile.stl") == read_file(file("pile.stl")));
   const Outcome again = run_rubble("export " + file("") + " --format ply,sdf --out " + out);
@@ -72,7 +74,42 @@ TEST_F(Readers, ExportWritesEveryFormatOfAFinishedRun) {
   EXPECT_EQ(forced.exit_code, 0) << forced.err;
   const Outcome unknown = run_rubble("export " + file("") + " --format fbx");
   EXPECT_EQ(unknown.exit_code, 1);
-  EXPECT_NE(unknown.err.find("stl, ply, obj, glb, sdf"), std::string::npos) << unknown.err;
+  EXPECT_NE(unknown.err.find("stl, ply, obj, glb, sdf, mjcf, usd, urdf"), std::string::npos) << unknown.err;
+}
+
+// All, none, and those near a place; every mass is that of the pile.
+TEST_F(Readers, ExportFreesThePiecesThatAreAskedFor) {
+  const auto count_free = [&](const std::string& choice, double& mass) {
+    const std::string out = *scratch_ / "scene";
+    const Outcome exported = run_rubble("export " + file("") + " --quiet --force --format mjcf --dynamic " + choice + " --out " + out);
+    EXPECT_EQ(exported.exit_code, 0) << exported.err;
+    const auto scene = nlohmann::json::parse(read_file(out + "/mjcf/scene.json"));
+    std::size_t free = 0;
+    mass = 0;
+    for (const auto& model : scene["models"]) {
+      free += !model["fixed"];
+      for (const auto& link : model["links"]) mass += link["mass_kg"].get<double>();
+    }
+    const std::string xml = read_file(out + "/mjcf/pile.xml");
+    std::size_t joints = 0;
+    for (std::size_t at = xml.find("<freejoint"); at != std::string::npos; at = xml.find("<freejoint", at + 1)) ++joints;
+    EXPECT_EQ(joints, free) << choice;
+    return free;
+  };
+  double masses[4];
+  EXPECT_EQ(count_free("none", masses[0]), 0u);
+  const std::size_t all = count_free("all", masses[1]);
+  EXPECT_GT(all, 30u);
+  EXPECT_EQ(count_free("near=0,0,100", masses[2]), all);
+  const std::size_t near = count_free("near=0,0,0,1", masses[3]);
+  EXPECT_GT(near, 0u);
+  EXPECT_LT(near, all);
+  for (const double mass : masses) EXPECT_NEAR(mass, masses[0], 1e-9 * mass);
+  for (const char* choice : {"some", "near=1,2", "near=1,2,3,4,5", "near=1,2,x", "near=0,0,-1", "near="}) {
+    const Outcome refused = run_rubble(std::string("export ") + file("") + " --format mjcf --dynamic " + choice);
+    EXPECT_EQ(refused.exit_code, 1) << choice;
+    EXPECT_NE(refused.err.find("near=X,Y,R (an upright cylinder)"), std::string::npos) << refused.err;
+  }
 }
 
 // MRPT's map of the run lies on the surface in the STL file.

@@ -21,6 +21,7 @@
 #include "kernel/robot/bundled.h"
 #include "kernel/robot/gaits.h"
 #include "kernel/robot/robot_run.h"
+#include "kernel/world/world_robots.h"
 #include "tests/app/program.h"
 #include "tests/app/tiny_run.h"
 
@@ -147,7 +148,7 @@ TEST(Victims, ArePushedByARobotThatIsHeavyEnough) {
     run.add(model, start, [&](const RobotSense&) { return drive_tracks(model, {speed, 0}, {1, 1, 1, 1}); });
     Push push;
     run.run([&](double) {
-      for (const RobotContact& contact : run.world().robot_contacts(0))
+      for (const RobotContact& contact : run.world().robots().contacts(0))
         push.touched = push.touched || (contact.piece == victims[0].piece && contact.force > 0);
       return true;
     });

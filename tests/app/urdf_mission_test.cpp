@@ -11,6 +11,7 @@
 #include "kernel/robot/bundled.h"
 #include "kernel/robot/gaits.h"
 #include "kernel/robot/robot_run.h"
+#include "kernel/world/world_robots.h"
 #include "tests/app/urdf_robots.h"
 
 namespace rubble::testing {
@@ -71,7 +72,7 @@ TEST(Urdf, TracksAreThoseOfTheMission) {
     RobotRun run({}, {}, run_options);
     run.add(model, {{}, {0, 0, 0.001}}, [&](const RobotSense&) { return drive_tracks(model, twist, {}); });
     run.run();
-    return run.world().robot_state(0).links[0].world_from_link;
+    return run.world().robots().state(0).links[0].world_from_link;
   };
   const Pose ahead = end_of(read.model, {0.3, 0}), as_bundled = end_of(bundled, {0.3, 0});
   EXPECT_NEAR(ahead.translation.x, as_bundled.translation.x, 0.02);

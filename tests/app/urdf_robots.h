@@ -9,6 +9,7 @@
 #include "app/robots/mission_robot.h"
 #include "kernel/base/error.h"
 #include "kernel/world/world.h"
+#include "kernel/world/world_robots.h"
 #include "scripting/scenario/scenario.h"
 #include "tests/app/program.h"
 
@@ -95,9 +96,9 @@ inline RobotState state_after(const RobotModel& model, int steps) {
   options.threads = 1;
   World world({}, options);
   world.set_step(1.0 / 240, 4);
-  const int robot = world.add_robot(model, {{}, {0, 0, 3}});
+  const int robot = world.robots().add(model, {{}, {0, 0, 3}});
   for (int i = 0; i < steps; ++i) world.step();
-  return world.robot_state(robot);
+  return world.robots().state(robot);
 }
 
 }  // namespace rubble::testing::urdf_test

@@ -9,6 +9,7 @@
 #include "kernel/robot/bundled.h"
 #include "kernel/robot/gaits.h"
 #include "kernel/robot/odometry.h"
+#include "kernel/world/world_robots.h"
 #include "tests/app/urdf_robots.h"
 
 namespace rubble::testing {
@@ -91,12 +92,12 @@ TEST(Urdf, ARoverFromAFileDrivesAsTheBundledOne) {
     options.threads = 1;
     World world({}, options);
     world.set_step(1.0 / 240, 4);
-    const int robot = world.add_robot(*models[k], {{}, {0, 0, 0.001}});
+    const int robot = world.robots().add(*models[k], {{}, {0, 0, 0.001}});
     for (int i = 0; i < 480; ++i) {
-      world.set_command(robot, drive_wheels(*models[k], {0.5, 0}));
+      world.robots().set_command(robot, drive_wheels(*models[k], {0.5, 0}));
       world.step();
     }
-    way[k] = world.robot_state(robot).links[0].world_from_link.translation.x;
+    way[k] = world.robots().state(robot).links[0].world_from_link.translation.x;
   }
   EXPECT_GT(way[0], 0.9);
   EXPECT_NEAR(way[1], way[0], 0.02) << "gains are softer: it gathers speed later";

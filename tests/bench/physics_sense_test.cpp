@@ -14,6 +14,8 @@
 #include "kernel/settling/generator.h"
 #include "kernel/settling/settle.h"
 #include "kernel/world/world.h"
+#include "kernel/world/world_diagnostics.h"
+#include "kernel/world/world_rest.h"
 
 namespace rubble {
 namespace physics_sense_test {
@@ -40,7 +42,7 @@ PileState pour_heap(double friction, std::uint64_t seed) {
   RandomStream random(seed, "pouring");
   for (int pour = 0; pour < kPours; ++pour) {
     std::vector<NewPiece> pieces(kLumps);
-    const double height = world.highest_point(true) + kAboveTop;
+    const double height = world.diagnostics().highest_point(true) + kAboveTop;
     for (int i = 0; i < kLumps; ++i) {
       const double turn = 2 * portable::kPi * (i + random.uniform(0, 0.3)) / kLumps;
       pieces[i].placement.type = int(random.below(kChunkTypes));
@@ -52,7 +54,7 @@ PileState pour_heap(double friction, std::uint64_t seed) {
     world.add(pieces);
     for (int step = 0; step < kSteps; ++step) world.step();
   }
-  world.begin_rest_verification();  // as settling does
+  world.rest().begin_verification();  // as settling does
   for (int step = 0; step < kLastSteps; ++step) world.step();
   PileState state;
   for (int i = 0; i < world.size(); ++i) state.pieces.push_back(world.piece(i));

@@ -10,11 +10,12 @@
 
 #include "io/datasets/tum_recorder.h"
 #include "io/mesh/stl_writer.h"
-#include "io/mesh/pile_export.h"
 #include "io/recording/recording_queue.h"
+#include "io/scenes/pile_export.h"
 #include "io/state/pile_state_file.h"
 #include "kernel/base/error.h"
 #include "tests/io/all_recorders.h"
+#include "tests/io/small_scene.h"
 #include "tests/io/support.h"
 
 namespace rubble {
@@ -56,7 +57,7 @@ PileState make_state() {
 
 TriangleMesh make_mesh() {
   TriangleMesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   mesh.triangles.assign(100, {0, 1, 2});
   return mesh;
 }
@@ -84,12 +85,18 @@ std::vector<Writer> all_writers() {
   for (const auto& [name, write] :
        std::initializer_list<std::pair<const char*, Export>>{{"pile.ply", write_ply},
                                                              {"pile.obj", write_obj},
-                                                             {"pile.glb", write_glb},
-                                                             {"sdf", write_sdf}})
+                                                             {"pile.glb", write_glb}})
     writers.push_back({name, [write = write](const auto& p) {
                          const TriangleMesh mesh = make_mesh();
                          write(p, make_model(mesh));
                        }});
+  for (const MeshFormat& format : mesh_formats()) {
+    if (!format.is_folder) continue;
+    writers.push_back({format.leaves.back(), [write = format.write](const auto& p) {
+                         const TriangleMesh mesh = make_mesh();
+                         write(p, test::make_scene(make_model(mesh)));
+                       }});
+  }
   for (const test::RecorderKind& kind : test::all_recorders(3))
     writers.push_back({kind.name, [kind](const auto& p) { record(kind.make(p)); }});
   return writers;

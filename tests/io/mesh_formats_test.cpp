@@ -306,6 +306,13 @@ TEST_F(MeshFormats, ThreemfPlacesComponentsOfOtherFilesOfThePackage) {
   EXPECT_EQ(notes(), "");
 }
 
+// A tag without a name says nothing, however it is written.
+TEST_F(MeshFormats, ThreemfPassesOverTagsWithoutAName) {
+  const std::string root = "<model " + kCoreSpace + "><resources></><//><></ ></>" + tetrahedron_3mf("1") +
+                           "</resources><build><item objectid=\"1\"/></build></model>";
+  expect_size(load("a.3mf", zip({{"3D/3dmodel.model", root}})), {1, 1, 1});
+}
+
 // Lines with more numbers than the header says, and items that share a line.
 TEST_F(MeshFormats, PlyOfTextHasALineForEachItem) {
   const std::string header =

@@ -1,6 +1,6 @@
 // Exports of a small pile, read back by assimp, Gazebo's SDF parser, Khronos's glTF validator,
 // ADMesh and meshio.
-#include "io/mesh/pile_export.h"
+#include "io/scenes/pile_export.h"
 
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
@@ -19,6 +19,7 @@
 #include "kernel/base/portable_math.h"
 #include "kernel/model/track_builder.h"
 #include "tests/io/all_recorders.h"
+#include "tests/io/small_scene.h"
 #include "tests/io/support.h"
 
 namespace rubble {
@@ -74,7 +75,7 @@ class PileExport : public ::testing::Test {
   Vec3 expected_corner() const { return model_.pieces[0].world_from_body * (Vec3{2, 0, 0} * 1.5); }
 
   std::string write(const std::string& format) {
-    names_ = export_pile(model_, format, folder_.path());
+    names_ = export_pile(test::make_scene(model_), format, folder_.path());
     return folder_ / names_.back();
   }
 
@@ -278,14 +279,14 @@ TEST_F(PileExport, NamesLeaveNeitherTheirLineNorTheFolder) {
   std::vector<std::string> meshes;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "sdf/meshes"))
     meshes.push_back(entry.path().filename().string());
-  ASSERT_EQ(meshes.size(), 3u) << "two meshes and their materials";
+  ASSERT_EQ(meshes.size(), 5u) << "two meshes, their convex parts and the materials";
   const std::string world = test::read_text(folder_ / "sdf/pile.sdf");
   int named = 0;
   for (const std::string& mesh : meshes) named += world.find("meshes/" + mesh + "<") != std::string::npos;
-  EXPECT_EQ(named, 2) << "the world names its files";
-  for (const std::string& mesh : meshes) EXPECT_TRUE(is_sdf_file("meshes/" + mesh)) << mesh;
-  EXPECT_TRUE(is_sdf_file("pile.sdf"));
-  for (const char* other : {"notes.txt", "meshes/photo.png", "mine/a.obj", "meshes/.obj2"}) EXPECT_FALSE(is_sdf_file(other)) << other;
+  EXPECT_EQ(named, 4) << "the world names its files";
+  for (const std::string& mesh : meshes) EXPECT_TRUE(is_scene_file("meshes/" + mesh)) << mesh;
+  EXPECT_TRUE(is_scene_file("pile.sdf"));
+  for (const char* other : {"notes.txt", "meshes/photo.jpg", "mine/a.obj", "meshes/.obj2"}) EXPECT_FALSE(is_scene_file(other)) << other;
 }
 
 TEST_F(PileExport, OtherReadersFindTheSameVolume) {
@@ -332,7 +333,7 @@ TEST_F(PileExport, GazebosParserLoadsTheWorld) {
   EXPECT_NEAR(world.Gravity().Z(), -9.81, 1e-12);
   model_.gravity = 1.62;
   std::filesystem::create_directories(folder_ / "moon");
-  export_pile(model_, "sdf", folder_ / "moon");
+  export_pile(test::make_scene(model_), "sdf", folder_ / "moon");
   EXPECT_NE(test::read_text(folder_ / "moon/sdf/pile.sdf").find("<gravity>0 0 -1.62</gravity>"), std::string::npos);
   const sdf::Model* model = world.ModelByName("wedge_000007");
   ASSERT_TRUE(model);
@@ -351,7 +352,7 @@ TEST_F(PileExport, GazebosParserLoadsTheWorld) {
   EXPECT_NE(text.find("<pose>0 -5 0 0 0 -1</pose>"), std::string::npos) << text;
   const sdf::Mesh* mesh = model->LinkByIndex(0)->CollisionByIndex(0)->Geom()->MeshShape();
   ASSERT_TRUE(mesh);
-  EXPECT_EQ(mesh->Uri(), "meshes/wedge.obj");
+  EXPECT_EQ(mesh->Uri(), "meshes/wedge_part_0.obj") << "the kernel's convex part";
   EXPECT_EQ(mesh->Scale().X(), 2.0);
   const TriangleMesh wedge = load_mesh(folder_ / "sdf/meshes/wedge.obj");
   EXPECT_NEAR(calc_volume_properties(wedge).volume, 2.0 * 0.5 / 6, 1e-6);
@@ -365,11 +366,11 @@ TEST_F(PileExport, GivesTheSameBytesTwiceAndOthersForAnotherPile) {
   for (const MeshFormat& mesh_format : mesh_formats()) {
     const std::string& format = mesh_format.name;
     const ScratchFolder a, b, c;
-    export_pile(model_, format, a.path());
-    export_pile(model_, format, b.path());
+    export_pile(test::make_scene(model_), format, a.path());
+    export_pile(test::make_scene(model_), format, b.path());
     PileModel moved = model_;
     moved.pieces[1].world_from_body.translation.z += 1e-3;
-    export_pile(moved, format, c.path());
+    export_pile(test::make_scene(moved), format, c.path());
     EXPECT_FALSE(test::read_tree(a.path()).empty());
     EXPECT_TRUE(test::read_tree(a.path()) == test::read_tree(b.path())) << format;
     EXPECT_FALSE(test::read_tree(a.path()) == test::read_tree(c.path())) << format;
@@ -379,13 +380,13 @@ TEST_F(PileExport, GivesTheSameBytesTwiceAndOthersForAnotherPile) {
 TEST_F(PileExport, NamesAPathThatIsTakenOrCannotBeWritten) {
   for (const MeshFormat& mesh_format : mesh_formats()) {
     const std::string& format = mesh_format.name;
-    const std::string name = format == "sdf" ? "sdf" : "pile." + format;
+    const std::string name = mesh_format.leaves.back();
     const ScratchFolder taken;
     std::filesystem::create_directories(taken / (name + "/inside"));
     // /proc is a folder that nobody may write to, not even root.
     for (const std::string& folder : {taken.path(), std::string("/proc")}) {
       try {
-        export_pile(model_, format, folder);
+        export_pile(test::make_scene(model_), format, folder);
         ADD_FAILURE() << format << " was written into " << folder;
       } catch (const RunError& error) {
         EXPECT_NE(std::string(error.what()).find(folder + "/"), std::string::npos) << error.what();
@@ -400,7 +401,7 @@ TEST_F(PileExport, NamesTheFormatsThatItKnows) {
     write("fbx");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("stl, ply, obj, glb, sdf"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("stl, ply, obj, glb, sdf, mjcf, usd, urdf"), std::string::npos);
   }
 }
 

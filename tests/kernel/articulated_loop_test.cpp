@@ -5,6 +5,7 @@
 
 #include "articulated_scene.h"
 #include "kernel/base/error.h"
+#include "kernel/world/world_diagnostics.h"
 
 namespace rubble {
 namespace articulated_loop_test {
@@ -71,12 +72,12 @@ TEST(Articulated, ALoopOfHingesSwingsAsAParallelogram) {
 TEST(Articulated, ALoopNeverGainsEnergy) {
   World world = make_world(make_parallelogram(1.2), 1, awake_options());
   world.add({hung({0, 0, 5})});
-  const double start = world.potential_energy(), lowest = start - 2 * world.mass(1) * kG *
+  const double start = world.diagnostics().potential_energy(), lowest = start - 2 * world.mass(1) * kG *
                                                                       (1 - std::cos(1.2));
   double last = start;
   for (int i = 0; i < 600; ++i) {
     world.step();
-    last = world.kinetic_energy() + world.potential_energy();
+    last = world.diagnostics().kinetic_energy() + world.diagnostics().potential_energy();
     EXPECT_LT(last, start + 0.01 * (start - lowest)) << "step " << i;
   }
   // Each step leaves the circle by its tangent; closing the loop again costs 3 % a second.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "articulated_scene.h"
+#include "kernel/world/world_diagnostics.h"
 
 namespace rubble {
 namespace articulated_test {
@@ -98,8 +99,8 @@ TEST(Articulated, WeldedLinksMoveAsOneRigidPiece) {
                       tree.piece(1).world_from_body.translation * tree.mass(1)) *
                          (1 / (tree.mass(0) + tree.mass(1)));
     tree.set_velocity(0, speed + cross(spin, arm), spin);
-    EXPECT_NEAR(tree.kinetic_energy(), piece.kinetic_energy(), 1e-9);
-    EXPECT_LT(norm(tree.linear_momentum() - piece.linear_momentum()), 1e-9);
+    EXPECT_NEAR(tree.diagnostics().kinetic_energy(), piece.diagnostics().kinetic_energy(), 1e-9);
+    EXPECT_LT(norm(tree.diagnostics().linear_momentum() - piece.diagnostics().linear_momentum()), 1e-9);
     run(tree, seconds);
     run(piece, seconds);
     const Vec3 expected = piece.piece(0).world_from_body * Vec3{-0.5, 0, 0};
@@ -123,19 +124,19 @@ TEST(Articulated, AFreeTreeHitByAFreePieceKeepsMomentum) {
   NewPiece bullet = at(1, {1.3, 0.02, 7}, turned({1, 1, 0}, 0.7));
   bullet.linear_velocity = {0.2, 0, -3};
   world.add({at(2, {0, 0, 5}), bullet});
-  const Vec3 before = world.linear_momentum(), turning = world.angular_momentum();
-  const double energy = world.kinetic_energy();
+  const Vec3 before = world.diagnostics().linear_momentum(), turning = world.diagnostics().angular_momentum();
+  const double energy = world.diagnostics().kinetic_energy();
   double last = energy;
   bool touched = false;
   for (int i = 0; i < 120; ++i) {
     world.step();
     touched = touched || (world.is_touching(5) && world.is_touching(2));
-    EXPECT_LE(world.kinetic_energy(), last * (1 + 1e-5));
-    last = world.kinetic_energy();
+    EXPECT_LE(world.diagnostics().kinetic_energy(), last * (1 + 1e-5));
+    last = world.diagnostics().kinetic_energy();
   }
   EXPECT_TRUE(touched);
-  EXPECT_LT(norm(world.linear_momentum() - before), 1e-3 * norm(before));
-  EXPECT_LT(norm(world.angular_momentum() - turning), 0.02 * norm(turning));
+  EXPECT_LT(norm(world.diagnostics().linear_momentum() - before), 1e-3 * norm(before));
+  EXPECT_LT(norm(world.diagnostics().angular_momentum() - turning), 0.02 * norm(turning));
   EXPECT_LT(last, 0.95 * energy);
   EXPECT_GT(norm(world.piece(1).linear_velocity), 0.05);  // the blow reaches both ends
 }
@@ -151,12 +152,12 @@ TEST(Articulated, ASwingingChainNeverGainsEnergy) {
     World world = make_world(chain, length, awake_options(), 0.08);
     world.add({hung({0, 0, wall ? 2.2 : 4.0})});
     if (wall) world.add({at(1, {-0.4, 0.4, 1.2}, turned({0, 0, 1}, 1.5), true)});
-    const double floor = world.potential_energy() - 5 * world.mass(1) * kG * 1.25;
-    const double swing = world.potential_energy() - floor;
+    const double floor = world.diagnostics().potential_energy() - 5 * world.mass(1) * kG * 1.25;
+    const double swing = world.diagnostics().potential_energy() - floor;
     double highest = 0, last = 0;
     for (int i = 0; i < 600; ++i) {
       world.step();
-      last = world.kinetic_energy() + world.potential_energy() - floor;
+      last = world.diagnostics().kinetic_energy() + world.diagnostics().potential_energy() - floor;
       highest = std::max(highest, last);
     }
     EXPECT_LT(highest, 1.003 * swing) << wall;
@@ -240,7 +241,7 @@ TEST(Articulated, APendulumRestsByItsFrictionAlone) {
     world.add({hung({0, 0, 5}, turned({0, 1, 0}, 0.4))});
     run(world, 20);
     EXPECT_EQ(world.awake_count(), dry ? 0 : 1);
-    EXPECT_EQ(world.kinetic_energy() > 0, !dry);
+    EXPECT_EQ(world.diagnostics().kinetic_energy() > 0, !dry);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "kernel/settling/building_collapse.h"
 #include "kernel/settling/collapse.h"
 #include "kernel/structure/building.h"
+#include "kernel/world/world_structures.h"
 #include "tests/kernel/member_scenes.h"
 
 namespace rubble {
@@ -35,7 +36,7 @@ Blasted blast_walls(const Structure& s, double impulse_there, double far) {
   collapse.begin_step();
   world.step();
   collapse.end_step();
-  return {world.piece(0).status == PieceStatus::fixed, world.centre_velocity(0).x};
+  return {world.piece(0).status == PieceStatus::fixed, world.structures().centre_velocity(0).x};
 }
 
 TEST(Blast, TakesOffAWallWhoseMotionIsMoreEnergyThanItsFootTakes) {
@@ -62,7 +63,7 @@ TEST(Blast, DecreasesWithTheSquareOfTheDistanceAndTheCosineOfIncidence) {
     collapse.begin_step();
     world.step();
     collapse.end_step();
-    return world.centre_velocity(0).x;
+    return world.structures().centre_velocity(0).x;
   };
   const double near = speed({-10.1, 0, 0.5}, 1e7), far = speed({-20.1, 0, 0.5}, 1e7);
   EXPECT_NEAR(near / far, 4, 0.02);

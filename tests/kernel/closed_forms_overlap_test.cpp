@@ -7,6 +7,7 @@
 #include "closed_forms.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/settling/settle.h"
+#include "kernel/world/world_diagnostics.h"
 
 namespace rubble {
 namespace closed_forms_overlap_test {
@@ -72,7 +73,7 @@ double sink_of(const std::vector<PieceType>& types, const NewPiece& lower, const
   World world(types);
   world.add({lower, upper});
   run(world, 4);
-  return world.deepest_overlap().depth;
+  return world.diagnostics().deepest_overlap().depth;
 }
 
 // A post through an opening that is too narrow for it: the bars beside it push it to and fro, and only
@@ -84,7 +85,7 @@ TEST(ClosedFormOverlap, APostLeavesTheOpeningThatIsTooNarrow) {
     NewPiece post = at(1, {0, 0, 0.205 + 0.25 - depth});
     world.add({at(2, {0, 0, 0.1}, {}, true), at(0, {0, 0, 0.205}, {}, true), post});
     run(world, 4);
-    EXPECT_LT(world.deepest_overlap().depth, 0.001) << depth;
+    EXPECT_LT(world.diagnostics().deepest_overlap().depth, 0.001) << depth;
   }
 }
 
@@ -118,7 +119,7 @@ TEST(ClosedFormOverlap, ASlabUnderManyBricksDoesNotSinkIntoItsSupports) {
     lowest = std::min(lowest, world.piece(2).world_from_body.translation.z);
   }
   EXPECT_GT(lowest, 1.1 - 0.02);
-  EXPECT_LT(world.deepest_overlap().depth, 0.0025);
+  EXPECT_LT(world.diagnostics().deepest_overlap().depth, 0.0025);
 }
 
 // Three bars in a ring, each over the next and 60 mm deep in it: nothing below holds them up, though each lies on

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "closed_forms.h"
+#include "kernel/world/world_diagnostics.h"
 
 namespace rubble {
 namespace closed_forms_tree_test {
@@ -38,7 +39,7 @@ double swing(int count, double angle, double seconds) {
   const double bar = world.mass(1);
   double lowest = 0;  // all bars upright
   for (int i = 0; i < count; ++i) lowest += bar * kG * (6 - 0.5 - i);
-  const auto energy = [&] { return world.kinetic_energy() + world.potential_energy() - lowest; };
+  const auto energy = [&] { return world.diagnostics().kinetic_energy() + world.diagnostics().potential_energy() - lowest; };
   const double at_first = energy();
   EXPECT_GT(at_first, 0);
   run(world, seconds);
@@ -78,20 +79,20 @@ TEST(ClosedFormTree, ASlowTreeWithoutFrictionSlidesOn) {
   for (const bool sleeping : {false, true}) {
     World world = make_sliding({0.05, 0, 0}, 0, sleeping);
     const double start = world.piece(0).world_from_body.translation.x;
-    const double momentum = world.linear_momentum().x;
+    const double momentum = world.diagnostics().linear_momentum().x;
     run(world, 5);
     EXPECT_TRUE(world.is_touching(0));
-    EXPECT_NEAR(world.linear_momentum().x, momentum, 0.01 * momentum) << sleeping;
+    EXPECT_NEAR(world.diagnostics().linear_momentum().x, momentum, 0.01 * momentum) << sleeping;
     EXPECT_NEAR(world.piece(0).world_from_body.translation.x - start, 0.25, 0.0025) << sleeping;
   }
 }
 
 TEST(ClosedFormTree, ASlowTreeWithoutFrictionTurnsOn) {
   World world = make_sliding({}, 0.2, false);
-  const double turning = world.angular_momentum().z;
+  const double turning = world.diagnostics().angular_momentum().z;
   run(world, 5);
   EXPECT_TRUE(world.is_touching(0));
-  EXPECT_NEAR(world.angular_momentum().z, turning, 0.01 * turning);
+  EXPECT_NEAR(world.diagnostics().angular_momentum().z, turning, 0.01 * turning);
 }
 
 // An arm on a ball joint that lies on a smooth ramp of 5 degrees and swings there like a pendulum

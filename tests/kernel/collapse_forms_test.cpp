@@ -8,6 +8,7 @@
 #include "kernel/structure/building.h"
 #include "kernel/structure/remaining_bars.h"
 #include "kernel/structure/standing.h"
+#include "kernel/world/world_structures.h"
 #include "scenes.h"
 
 namespace rubble {
@@ -49,7 +50,7 @@ struct Catenary {
       tie.strength = strength;
       tie.stretch = kStretch;
       tie.bending = 100;
-      world.add_tie(tie);
+      world.structures().add_tie(tie);
     }
   }
   void run(double seconds) {
@@ -67,7 +68,7 @@ struct Catenary {
 TEST(Catenary, BridgesWhereItsBarsAreStrongEnoughAndFallsWhereNot) {
   Catenary strong(1.2 * Catenary(1).stopping_strength(2));
   strong.run(12);
-  EXPECT_EQ(int(strong.world.ties().size()), Catenary::kJoints);
+  EXPECT_EQ(int(strong.world.structures().ties().size()), Catenary::kJoints);
   const double sagged = 5 - strong.middle();
   EXPECT_GT(sagged, 0.8 * Catenary::sag(Catenary::kSlack));
   EXPECT_LT(sagged, 1.1 * Catenary::sag(Catenary::kSlack + Catenary::kStretch));
@@ -75,12 +76,12 @@ TEST(Catenary, BridgesWhereItsBarsAreStrongEnoughAndFallsWhereNot) {
   double pull = 0;
   for (int i = 0; i < 120; ++i) {
     strong.world.step();
-    pull += strong.world.tie_force(Catenary::kJoints / 2) / 120;
+    pull += strong.world.structures().tie_force(Catenary::kJoints / 2) / 120;
   }
   EXPECT_NEAR(pull / (strong.weight * Catenary::kSpan / (8 * (5 - strong.middle()))), 1, 0.15);
   Catenary weak(0.8 * Catenary(1).stopping_strength(Catenary::kJoints));
   weak.run(4);
-  EXPECT_LT(int(weak.world.ties().size()), Catenary::kJoints);
+  EXPECT_LT(int(weak.world.structures().ties().size()), Catenary::kJoints);
   EXPECT_LT(weak.middle(), 1) << "it fell to the ground";
 }
 

@@ -6,6 +6,7 @@
 
 #include "kernel/settling/generator.h"
 #include "kernel/world/world.h"
+#include "kernel/world/world_diagnostics.h"
 #include "scenes.h"
 
 namespace rubble {
@@ -33,16 +34,16 @@ TEST(FreeFall, SpinKeepsAngularMomentumAndNeverGainsEnergy) {
   NewPiece piece = at(0, {0, 0, 5});
   piece.angular_velocity = {1, 6, 0.5};  // near the unstable middle axis
   world.add({piece});
-  const double energy = world.kinetic_energy();
-  const Vec3 before = world.angular_momentum();
+  const double energy = world.diagnostics().kinetic_energy();
+  const Vec3 before = world.diagnostics().angular_momentum();
   double last = energy;
   for (int i = 0; i < 120; ++i) {
     world.step();
-    EXPECT_LE(world.kinetic_energy(), last * (1 + 1e-6));
-    last = world.kinetic_energy();
+    EXPECT_LE(world.diagnostics().kinetic_energy(), last * (1 + 1e-6));
+    last = world.diagnostics().kinetic_energy();
   }
   EXPECT_GT(last, 0.5 * energy);
-  EXPECT_NEAR(norm(world.angular_momentum() - before) / norm(before), 0, 0.25);
+  EXPECT_NEAR(norm(world.diagnostics().angular_momentum() - before) / norm(before), 0, 0.25);
 }
 
 // A box on a fixed slope of the given angle; returns how far it slid and its final speed.
@@ -111,17 +112,17 @@ TEST(Collision, MomentumIsKept) {
   NewPiece b = at(1, {0, 0, 5.05}, turned({3, 1, 0}, 1.1));
   b.linear_velocity = {-1, 0.2, 0};
   world.add({a, b});
-  const Vec3 before = world.linear_momentum(), turning = world.angular_momentum();
-  const double energy = world.kinetic_energy();
+  const Vec3 before = world.diagnostics().linear_momentum(), turning = world.diagnostics().angular_momentum();
+  const double energy = world.diagnostics().kinetic_energy();
   bool touched = false;
   for (int i = 0; i < 60; ++i) {
     world.step();
     touched = touched || world.is_touching(0);
   }
   EXPECT_TRUE(touched);
-  EXPECT_LT(norm(world.linear_momentum() - before), 1e-4 * norm(before));
-  EXPECT_LT(norm(world.angular_momentum() - turning), 0.02 * norm(turning));
-  EXPECT_LT(world.kinetic_energy(), 0.9 * energy);  // plastic
+  EXPECT_LT(norm(world.diagnostics().linear_momentum() - before), 1e-4 * norm(before));
+  EXPECT_LT(norm(world.diagnostics().angular_momentum() - turning), 0.02 * norm(turning));
+  EXPECT_LT(world.diagnostics().kinetic_energy(), 0.9 * energy);  // plastic
 }
 
 TEST(Collision, HeadOnPlasticImpactHasTheCommonSpeed) {
@@ -166,12 +167,12 @@ EnergyOfFall drop_pile(std::uint64_t seed) {
     pieces.back().placement.world_from_body.translation.z += 0.5;
   }
   world.add(pieces);
-  const double start = world.kinetic_energy() + world.potential_energy();
+  const double start = world.diagnostics().kinetic_energy() + world.diagnostics().potential_energy();
   EnergyOfFall fall;
   double last = start;
   for (int i = 0; i < 240; ++i) {
     world.step();
-    const double now = world.kinetic_energy() + world.potential_energy();
+    const double now = world.diagnostics().kinetic_energy() + world.diagnostics().potential_energy();
     fall.rises += std::max(0.0, now - last) / start;
     last = now;
   }
@@ -198,13 +199,13 @@ TEST(WorldStep, SaysWhichOfItsStagesBegins) {
   World world({box_type("brick", 0.215, 0.1025, 0.065)});
   world.add({at(0, {0, 0, 0.04})});
   std::vector<StepStage> stages;
-  world.set_on_stage([&stages](StepStage stage) { stages.push_back(stage); });
+  world.diagnostics().set_on_stage([&stages](StepStage stage) { stages.push_back(stage); });
   world.step();
   const std::vector<StepStage> expected{StepStage::pairs,  StepStage::points, StepStage::impulses,
                                         StepStage::rest,   StepStage::motion, StepStage::rest,
                                         StepStage::none};
   EXPECT_EQ(stages, expected);
-  world.set_on_stage({});
+  world.diagnostics().set_on_stage({});
   world.step();
   EXPECT_EQ(stages.size(), expected.size());
 }

@@ -6,6 +6,7 @@
 #include "kernel/geometry/shape.h"
 #include "kernel/model/pile.h"
 #include "kernel/settling/generator.h"
+#include "kernel/world/world_diagnostics.h"
 #include "scenes.h"
 
 namespace rubble {
@@ -30,7 +31,7 @@ TEST(Generator, NoTwoPiecesOfALayerTouch) {
     world.add(pieces);
     world.step();
     for (int i = 0; i < world.size(); ++i) EXPECT_FALSE(world.is_touching(i)) << i;
-    EXPECT_EQ(world.kinetic_energy(), 0);
+    EXPECT_EQ(world.diagnostics().kinetic_energy(), 0);
   }
 }
 

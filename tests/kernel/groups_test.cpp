@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "kernel/world/world.h"
+#include "kernel/world/world_diagnostics.h"
 #include "kernel/world/world_snapshot.h"
+#include "kernel/world/world_structures.h"
 
 namespace rubble {
 namespace groups_test {
@@ -43,33 +45,33 @@ std::vector<int> range(int first, int last) {
 
 TEST(Groups, StandWhileFixedAndFallWhenFreed) {
   World world = make_world();
-  world.bind(world.add(make_row(6, 5)), 6);
+  world.structures().bind(world.add(make_row(6, 5)), 6);
   for (int i = 0; i < 30; ++i) world.step();
   EXPECT_EQ(world.piece(4).world_from_body.translation.z, 5 + 0.02 * 16);
   EXPECT_EQ(world.piece(4).status, PieceStatus::fixed);
-  world.split({{range(0, 3), true}, {range(3, 6), false}});
+  world.structures().split({{range(0, 3), true}, {range(3, 6), false}});
   for (int i = 0; i < 30; ++i) world.step();
   EXPECT_EQ(world.piece(2).world_from_body.translation.z, 5 + 0.02 * 4);
   EXPECT_NEAR(world.piece(4).world_from_body.translation.z, 5 + 0.02 * 16 - 9.81 * 0.5 * 0.25, 1e-9);
-  EXPECT_EQ(world.bound_with(4), range(3, 6));
+  EXPECT_EQ(world.structures().bound_with(4), range(3, 6));
 }
 
 TEST(Groups, ThatComeApartKeepMassMomentumAndEnergy) {
   World world = make_world();
-  world.bind(world.add(make_row(7, 50)), 7);
-  world.split({{range(0, 7), false}});
+  world.structures().bind(world.add(make_row(7, 50)), 7);
+  world.structures().split({{range(0, 7), false}});
   world.set_velocity(3, {1, -2, 0.5}, {3, 1, -2});
   for (int i = 0; i < 20; ++i) world.step();
-  const Vec3 p = world.linear_momentum(), l = world.angular_momentum();
-  const double kinetic = world.kinetic_energy(), potential = world.potential_energy();
+  const Vec3 p = world.diagnostics().linear_momentum(), l = world.diagnostics().angular_momentum();
+  const double kinetic = world.diagnostics().kinetic_energy(), potential = world.diagnostics().potential_energy();
   double mass = world.mass(0);
   std::vector<PieceState> before;
   for (int i = 0; i < 7; ++i) before.push_back(world.piece(i));
-  world.split({{{0, 1, 4}, false}, {{2}, false}, {{3, 5, 6}, false}});
-  EXPECT_NEAR(distance(world.linear_momentum(), p) / norm(p), 0, 1e-12);
-  EXPECT_NEAR(distance(world.angular_momentum(), l) / norm(l), 0, 1e-12);
-  EXPECT_NEAR(world.kinetic_energy() / kinetic, 1, 1e-12);
-  EXPECT_NEAR(world.potential_energy() / potential, 1, 1e-12);
+  world.structures().split({{{0, 1, 4}, false}, {{2}, false}, {{3, 5, 6}, false}});
+  EXPECT_NEAR(distance(world.diagnostics().linear_momentum(), p) / norm(p), 0, 1e-12);
+  EXPECT_NEAR(distance(world.diagnostics().angular_momentum(), l) / norm(l), 0, 1e-12);
+  EXPECT_NEAR(world.diagnostics().kinetic_energy() / kinetic, 1, 1e-12);
+  EXPECT_NEAR(world.diagnostics().potential_energy() / potential, 1, 1e-12);
   EXPECT_NEAR((world.mass(0) + world.mass(2) + world.mass(3)) / mass, 1, 1e-12);
   for (int i = 0; i < 7; ++i) {
     const PieceState after = world.piece(i);
@@ -80,14 +82,14 @@ TEST(Groups, ThatComeApartKeepMassMomentumAndEnergy) {
 
 TEST(Groups, ASnapshotGoesOnToTheSameBits) {
   World world = make_world();
-  world.bind(world.add(make_row(6, 1)), 6);
-  world.split({{range(0, 2), true}, {range(2, 6), false}});
+  world.structures().bind(world.add(make_row(6, 1)), 6);
+  world.structures().split({{range(0, 2), true}, {range(2, 6), false}});
   for (int i = 0; i < 40; ++i) world.step();
   const auto bytes = encode_snapshot(*world.snapshot());
   World other = make_world();
   other.restore(*decode_snapshot(bytes));
   for (World* w : {&world, &other}) {
-    w->split({{{2, 3}, false}, {{4, 5}, false}});
+    w->structures().split({{{2, 3}, false}, {{4, 5}, false}});
     for (int i = 0; i < 60; ++i) w->step();
   }
   for (int i = 0; i < 6; ++i) {
@@ -99,11 +101,11 @@ TEST(Groups, ASnapshotGoesOnToTheSameBits) {
 
 TEST(Groups, PressOnWhatCarriesThemWithTheirWeight) {
   World world = make_world();
-  world.bind(world.add(make_row(5, 0.3)), 5);
-  world.split({{range(0, 5), false}});
+  world.structures().bind(world.add(make_row(5, 0.3)), 5);
+  world.structures().split({{range(0, 5), false}});
   for (int i = 0; i < 240; ++i) world.step();
   double carried = 0, weight = 0;
-  for (const ContactImpulse& c : world.contact_impulses()) carried += c.impulse.z * 60;
+  for (const ContactImpulse& c : world.structures().contact_impulses()) carried += c.impulse.z * 60;
   weight = world.mass(0) * 9.81;
   EXPECT_NEAR(carried / weight, 1, 0.02);
 }
@@ -117,23 +119,23 @@ TEST(Groups, WhatBreaksUnderAnImpactDoesNotStopIt) {
     plate[i].placement.fixed = true;
     plate[i].placement.world_from_body.translation = {double(i) * 1.05, 0, 2};
   }
-  world.bind(world.add(plate), 2);
+  world.structures().bind(world.add(plate), 2);
   NewPiece block;
   block.placement.type = 1;
   block.placement.world_from_body.translation = {0, 0, 2.4};
   block.linear_velocity = {0, 0, -6};
   const int number = world.add({block});
   bool whole = true;
-  world.set_on_solved([&] {
-    if (!whole || world.contact_impulses().empty()) return false;
+  world.structures().set_on_solved([&] {
+    if (!whole || world.structures().contact_impulses().empty()) return false;
     whole = false;
-    world.split({{{0}, false}, {{1}, true}});
+    world.structures().split({{{0}, false}, {{1}, true}});
     return true;
   });
   const double momentum = world.mass(number) * -6;
   for (int i = 0; i < 10; ++i) world.step();
   EXPECT_FALSE(whole);
-  EXPECT_NEAR(world.linear_momentum().z / momentum, 1, 1e-3);
+  EXPECT_NEAR(world.diagnostics().linear_momentum().z / momentum, 1, 1e-3);
   EXPECT_LT(world.piece(0).linear_velocity.z, -1);
 }
 

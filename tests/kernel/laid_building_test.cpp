@@ -9,6 +9,8 @@
 #include "kernel/settling/building_collapse.h"
 #include "kernel/settling/generator.h"
 #include "kernel/settling/settle.h"
+#include "kernel/world/world_diagnostics.h"
+#include "kernel/world/world_structures.h"
 #include "robot_scenes.h"
 #include "scenes.h"
 
@@ -63,17 +65,17 @@ TEST(LaidBuilding, WhatHangsHangsAndSleeps) {
   const Ruin r = make_ruin();
   World world(r.pile.types);
   world.lay(r.pile, r.state);
-  ASSERT_EQ(world.tie_count(), 1);
-  EXPECT_EQ(world.ties()[0].stretch, 0.1);
-  EXPECT_EQ(world.ties()[0].length, 1);
+  ASSERT_EQ(world.structures().tie_count(), 1);
+  EXPECT_EQ(world.structures().ties()[0].stretch, 0.1);
+  EXPECT_EQ(world.structures().ties()[0].length, 1);
   EXPECT_EQ(world.awake_count(), 0);
-  EXPECT_NEAR(world.tie_force(0) / (world.mass(2) * kGravity), 1, 0.02);
+  EXPECT_NEAR(world.structures().tie_force(0) / (world.mass(2) * kGravity), 1, 0.02);
   world.set_step(1.0 / 240, 4);
   for (int i = 0; i < 240; ++i) world.step();
   world.wake_all();
   for (int i = 0; i < 240; ++i) world.step();
   EXPECT_LT(moved(world, r.state, 2), 0.003);
-  EXPECT_EQ(world.tie_count(), 1);
+  EXPECT_EQ(world.structures().tie_count(), 1);
 }
 
 TEST(LaidBuilding, ATieThatIsNotLaidLetsItFall) {
@@ -90,7 +92,7 @@ TEST(LaidBuilding, WhatHoldsTogetherMovesAsOne) {
   const Ruin r = make_ruin();
   World world(r.pile.types);
   world.lay(r.pile, r.state);
-  EXPECT_EQ(world.bound_with(4), (std::vector<int>{3, 4}));
+  EXPECT_EQ(world.structures().bound_with(4), (std::vector<int>{3, 4}));
   const double mass = world.mass(3);
   EXPECT_NEAR(mass, 2 * 2 * 0.4 * 0.2 * 2400, 1e-6);
   EXPECT_LT(moved(world, r.state, 4), 1e-9) << "laid where it was";
@@ -100,9 +102,9 @@ TEST(LaidBuilding, WhatHoldsTogetherMovesAsOne) {
   const Pose a = world.piece(3).world_from_body, b = world.piece(4).world_from_body;
   const Vec3 along = a.rotation.conjugate().rotate(b.translation - a.translation);
   EXPECT_NEAR(distance(along, {2, 0, 0}), 0, 1e-9);
-  const Vec3 before = world.linear_momentum();
-  world.set_velocity(4, world.centre_velocity(4) + Vec3{0, 1, 0}, {});
-  EXPECT_NEAR(world.linear_momentum().y - before.y, mass, mass * 1e-6) << "a push on one moves both";
+  const Vec3 before = world.diagnostics().linear_momentum();
+  world.set_velocity(4, world.structures().centre_velocity(4) + Vec3{0, 1, 0}, {});
+  EXPECT_NEAR(world.diagnostics().linear_momentum().y - before.y, mass, mass * 1e-6) << "a push on one moves both";
 }
 
 TEST(LaidBuilding, WhatIsAnchoredStands) {
@@ -156,7 +158,7 @@ TEST(LaidBuilding, ACollapsedStoreyStaysAsItCameToRest) {
   ASSERT_FALSE(state.building.bodies.empty());
   World world(pile.types);
   world.lay(pile, state);
-  EXPECT_EQ(world.tie_count(), int(state.building.ties.size()));
+  EXPECT_EQ(world.structures().tie_count(), int(state.building.ties.size()));
   EXPECT_EQ(world.awake_count(), 0);
   for (int i = 0; i < 60; ++i) world.step();
   for (int i = 0; i < world.size(); ++i) EXPECT_LT(moved(world, state, i), 1e-9) << i;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/world/world.h"
+#include "kernel/world/world_rest.h"
 #include "kernel/world/world_serialization.h"
 #include "closed_forms.h"
 #include "scenes.h"
@@ -23,11 +24,11 @@ constexpr double kSpeed = 0.05, kAngularSpeed = 0.2;
 
 // Steps until rest is proved or `seconds` are over; the seconds it took, or infinity.
 double prove(World& world, double seconds) {
-  world.begin_rest_verification();
+  world.rest().begin_verification();
   const double start = world.time();
   while (world.time() < start + seconds) {
     world.step();
-    if (world.rest_verified(kSpeed, kAngularSpeed)) return world.time() - start;
+    if (world.rest().verified(kSpeed, kAngularSpeed)) return world.time() - start;
   }
   return INFINITY;
 }
@@ -48,12 +49,12 @@ TEST(ProofOfRest, WhoOnlySleepsHasProvedNothing) {
   world.add({at(0, {0, 0, 0.1})});
   run(world, 2);
   ASSERT_EQ(world.awake_count(), 0);
-  EXPECT_TRUE(world.at_rest(kSpeed, kAngularSpeed));
-  EXPECT_FALSE(world.verifying_rest());
-  EXPECT_FALSE(world.rest_verified(kSpeed, kAngularSpeed));
+  EXPECT_TRUE(world.rest().reached(kSpeed, kAngularSpeed));
+  EXPECT_FALSE(world.rest().verifying());
+  EXPECT_FALSE(world.rest().verified(kSpeed, kAngularSpeed));
   EXPECT_LT(prove(world, 2), 2);
   world.add({at(0, {2, 0, 0.1})});  // what is new has proved nothing
-  EXPECT_FALSE(world.rest_verified(kSpeed, kAngularSpeed));
+  EXPECT_FALSE(world.rest().verified(kSpeed, kAngularSpeed));
 }
 
 // On a slope a little steeper than friction holds it begins slowly.
@@ -92,12 +93,12 @@ TEST(ProofOfRest, WhoSlidesWithoutFrictionNeverPasses) {
     World world({box});
     world.add({at(0, {0, 0, 0.1})});
     run(world, 1);
-    world.begin_rest_verification();
+    world.rest().begin_verification();
     world.set_velocity(0, {speed, 0, 0}, {});
     const Vec3 start = world.piece(0).world_from_body.translation;
     for (int i = 0; i < 600; ++i) {
       world.step();
-      ASSERT_FALSE(world.rest_verified(kSpeed, kAngularSpeed)) << speed;
+      ASSERT_FALSE(world.rest().verified(kSpeed, kAngularSpeed)) << speed;
     }
     EXPECT_NEAR(distance(world.piece(0).world_from_body.translation, start), 10 * speed, 0.02 * speed);
   }
@@ -113,12 +114,12 @@ TEST(ProofOfRest, ManyThatCreepWithinTheTolerancePassTogether) {
   for (int i = 0; i < 20; ++i) pieces.push_back(at(0, {double(i), 0, 0.1}));
   world.add(pieces);
   run(world, 1);
-  world.begin_rest_verification();
+  world.rest().begin_verification();
   for (int i = 0; i < 20; ++i) world.set_velocity(i, {0, 0.0015 + 0.00002 * double(i), 0}, {});
   int passed = 0;
   for (int i = 0; i < 600; ++i) {
     world.step();
-    passed += world.rest_verified(kSpeed, kAngularSpeed) ? 1 : 0;
+    passed += world.rest().verified(kSpeed, kAngularSpeed) ? 1 : 0;
   }
   EXPECT_GT(passed, 480);
 }
@@ -180,7 +181,7 @@ double drift_of_held_drum(double limit) {
   const Quat q = turned({0, 1, 0}, 0.010);
   world.add({at(0, {0, 0, 1}, q, true), at(1, {0, 8, 0.15}), at(2, {0, -8, 0.1})});
   run(world, 1);
-  world.begin_rest_verification(limit);
+  world.rest().begin_verification(limit);
   world.set_velocity(2, {0.04, 0, 0}, {});
   run(world, 5.5);
   world.set_pose(1, {q, Vec3{0, 0, 1} + q.rotate({0, 0, 0.6505})});
@@ -189,7 +190,7 @@ double drift_of_held_drum(double limit) {
   bool verified = false;
   for (int i = 0; i < 600 && !verified; ++i) {
     world.step();
-    verified = world.rest_verified(kSpeed, kAngularSpeed);
+    verified = world.rest().verified(kSpeed, kAngularSpeed);
   }
   EXPECT_TRUE(verified);
   const Vec3 before = world.piece(1).world_from_body.translation;
@@ -211,11 +212,11 @@ TEST(ProofOfRest, PiecesFarFromWhatMovesDozeAndAreVerifiedAwakeAllTheSame) {
   std::vector<NewPiece> pieces = {at(0, {-5, 0, 0.1})};
   for (int i = 0; i < 10; ++i) pieces.push_back(at(0, {double(i), 5, 0.1}));
   world.add(pieces);
-  world.begin_rest_verification();
+  world.rest().begin_verification();
   world.set_velocity(0, {0.03, 0, 0}, {});
   int least = world.awake_count(), all_awake_steps = 0, steps = 0;
   ASSERT_EQ(least, 11);
-  while (!world.rest_verified(kSpeed, kAngularSpeed) && ++steps < 1200) {
+  while (!world.rest().verified(kSpeed, kAngularSpeed) && ++steps < 1200) {
     if (steps == 180) world.set_velocity(0, {}, {});
     world.step();
     least = std::min(least, world.awake_count());
@@ -234,10 +235,10 @@ TEST(ProofOfRest, NeighboursOfWhatMovesStayAwake) {
   World world({plate, box});
   world.add({at(0, {0, 0, 0.05}), at(1, {-1, 0, 0.202}), at(1, {5, 0, 0.1}), at(1, {7, 0, 0.1})});
   run(world, 1);
-  world.begin_rest_verification();
+  world.rest().begin_verification();
   world.set_velocity(1, {0.03, 0, 0}, {});
   run(world, 1.5);
-  ASSERT_FALSE(world.rest_verified(kSpeed, kAngularSpeed));
+  ASSERT_FALSE(world.rest().verified(kSpeed, kAngularSpeed));
   EXPECT_TRUE(world.is_awake(0) && world.is_awake(1));
   EXPECT_FALSE(world.is_awake(2) || world.is_awake(3));
 }
@@ -254,7 +255,7 @@ TEST(ProofOfRest, WhoSleepsInTheAirDoesNotPass) {
   for (FreeBody& body : snapshot->free) body.linear_velocity = body.angular_velocity = {};
   world.restore(*snapshot);
   run(world, 0.5);
-  ASSERT_TRUE(world.at_rest(kSpeed, kAngularSpeed));
+  ASSERT_TRUE(world.rest().reached(kSpeed, kAngularSpeed));
   ASSERT_GT(world.piece(1).world_from_body.translation.z, 1.3);
   const double seconds = prove(world, 5);
   // It falls first, and rest is proved on the ground alone.

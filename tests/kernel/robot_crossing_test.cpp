@@ -6,6 +6,8 @@
 
 #include "kernel/base/random.h"
 #include "kernel/robot/parts.h"
+#include "kernel/world/world_diagnostics.h"
+#include "kernel/world/world_robots.h"
 #include "robot_scenes.h"
 
 namespace rubble {
@@ -27,7 +29,7 @@ double cross_gap(bool flippers, double gap) {
   options.flippers = flippers;
   options.flipper_start = 0;
   const RobotModel model = make_crawler(options);
-  const int robot = world.add_robot(model, {{}, {-0.5, 0, height + 0.001}});
+  const int robot = world.robots().add(model, {{}, {-0.5, 0, height + 0.001}});
   drive(world, robot, 18, [&](double) { return drive_tracks(model, {0.1, 0}, {0, 0, 0, 0}); });
   const Vec3 at = position_of(world, robot);
   return at.z > 0.9 * height ? at.x - gap : -1;  // how far beyond the trench; -1: it is in it
@@ -92,10 +94,10 @@ double cross_field(std::uint64_t seed, bool flippers) {
   options.flippers = flippers;
   options.flipper_start = 0.7;
   const RobotModel model = make_crawler(options);
-  const int robot = world.add_robot(model, {{}, {-0.75, 0, 0.001}});
+  const int robot = world.robots().add(model, {{}, {-0.75, 0, 0.001}});
   FieldDriver driver;
   for (int i = 0; i < 40 * 60 && position_of(world, robot).x < 1.25; ++i)
-    drive(world, robot, 1.0 / 60, [&](double) { return driver.drive(model, world.robot_state(robot), i / 60.0); });
+    drive(world, robot, 1.0 / 60, [&](double) { return driver.drive(model, world.robots().state(robot), i / 60.0); });
   return position_of(world, robot).x;
 }
 
@@ -122,10 +124,10 @@ Pushed push_block(bool with_block) {
   RobotModel model = make_rover();
   model.links[0].parts.push_back(make_box({0.02, 0.5, 0.12}, {0.26, 0, 0.07}));
   model.links[0].friction = 0;  // the plough slides along what it pushes
-  const int robot = world.add_robot(model, {{}, {0, 0, 0.001}});
+  const int robot = world.robots().add(model, {{}, {0, 0, 0.001}});
   const auto measure = [&] {
     Pushed now;
-    const RobotState state = world.robot_state(robot);
+    const RobotState state = world.robots().state(robot);
     for (const RobotState::Joint& joint : state.joints) now.work += joint.work;
     now.wheels = state.joints[0].position * kRoverWheelRadius;
     if (with_block) now.way = world.piece(block).world_from_body.translation.x;
@@ -156,15 +158,15 @@ TEST(Robot, MotorsGiveWhatFrictionTakesFromTheDebris) {
 TEST(Robot, MotorsAndWeightGiveAllEnergyOfMotion) {
   World world = make_robot_world();
   const RobotModel model = make_snake();
-  const int robot = world.add_robot(model, {{}, {0, 0, 20}});
+  const int robot = world.robots().add(model, {{}, {0, 0, 20}});
   const double top = testing::centre_of(world, robot).z;
   SnakeGait gait = lateral_undulation();
   gait.vertical_amplitude = 0, gait.lateral_amplitude = 0.3, gait.ramp = 0.5;  // no self-contact
   drive(world, robot, 1, [&](double t) { return calc_gait(model, gait, t); });
   double given = model.mass() * kGravity * (top - testing::centre_of(world, robot).z);
-  for (const RobotState::Joint& joint : world.robot_state(robot).joints) given += joint.work;
-  std::printf("given %.3f J, energy of motion %.3f J\n", given, world.kinetic_energy());
-  EXPECT_NEAR(given, world.kinetic_energy(), 0.01 * given);
+  for (const RobotState::Joint& joint : world.robots().state(robot).joints) given += joint.work;
+  std::printf("given %.3f J, energy of motion %.3f J\n", given, world.diagnostics().kinetic_energy());
+  EXPECT_NEAR(given, world.diagnostics().kinetic_energy(), 0.01 * given);
 }
 
 }  // namespace robot_crossing_test

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "kernel/robot/parts.h"
+#include "kernel/world/world_diagnostics.h"
+#include "kernel/world/world_robots.h"
 #include "robot_scenes.h"
 
 namespace rubble {
@@ -54,19 +56,19 @@ struct Slope {
 TEST(Crawler, SpinningTracksAccelerateItByFriction) {
   World world = make_robot_world();
   const RobotModel model = make_crawler(bare());
-  const int robot = world.add_robot(model, {{}, {0, 0, 0.001}});
+  const int robot = world.robots().add(model, {{}, {0, 0, 0.001}});
   drive(world, robot, 0.5, [&](double) { return drive_tracks(model, {}, {}); });
   const double start = position_of(world, robot).x;
   drive(world, robot, 0.4, [&](double) { return drive_tracks(model, {5, 0}, {}); });
   EXPECT_NEAR(position_of(world, robot).x - start, 0.5 * 0.7 * kG * 0.16, 0.02 * 0.55);
   drive(world, robot, 2, [&](double) { return drive_tracks(model, {5, 0}, {}); });
-  EXPECT_NEAR(world.robot_state(robot).links[0].linear.x, 5, 0.005);
+  EXPECT_NEAR(world.robots().state(robot).links[0].linear.x, 5, 0.005);
 }
 
 TEST(Crawler, DrivesAsFastAsItsBelts) {
   World world = make_robot_world();
   const RobotModel model = make_crawler();
-  const int robot = world.add_robot(model, {{}, {0, 0, 0.001}});
+  const int robot = world.robots().add(model, {{}, {0, 0, 0.001}});
   const auto forward = [&](double) { return drive_tracks(model, {0.5, 0}, {}); };
   drive(world, robot, 1, forward);
   const double start = position_of(world, robot).x;
@@ -82,7 +84,7 @@ TEST(Crawler, ClimbsASlopeUpToItsFrictionLimit) {
   for (double degrees : {20.0, 30.0, 34.0}) {
     const Slope slope(degrees);
     World world = slope.make();
-    const int robot = world.add_robot(model, slope.base());
+    const int robot = world.robots().add(model, slope.base());
     const auto up = [&](double) { return drive_tracks(model, {0.3, 0}, {}); };
     drive(world, robot, 2, up);  // at 34 degrees it takes 1.6 s to reach the belts' speed
     const double start = slope.along(world, robot);
@@ -91,12 +93,12 @@ TEST(Crawler, ClimbsASlopeUpToItsFrictionLimit) {
   }
   const Slope steep(40);
   World world = steep.make();
-  const int robot = world.add_robot(model, steep.base());
+  const int robot = world.robots().add(model, steep.base());
   const auto up = [&](double) { return drive_tracks(model, {0.3, 0}, {}); };
   drive(world, robot, 0.5, up);
-  const double before = world.robot_state(robot).links[0].linear.x;
+  const double before = world.robots().state(robot).links[0].linear.x;
   drive(world, robot, 0.5, up);
-  const double gained = (world.robot_state(robot).links[0].linear.x - before) / std::cos(steep.angle);
+  const double gained = (world.robots().state(robot).links[0].linear.x - before) / std::cos(steep.angle);
   const double expected = 0.5 * kG * (0.7 * std::cos(steep.angle) - std::sin(steep.angle));
   EXPECT_NEAR(gained, expected, 0.01 * -expected);
 }
@@ -119,10 +121,10 @@ TEST(Crawler, TipsOverWhereItsWeightLeavesTheTracks) {
     World world = slope.make();
     Pose base = slope.base();
     base.rotation = base.rotation * testing::turned({0, 0, 1}, 90 * kDegree);
-    const int robot = world.add_robot(model, base);
+    const int robot = world.robots().add(model, base);
     drive(world, robot, 3, [&](double) { return drive_tracks(model, {}, {}); });
     const double up = dot(slope.turn.rotate({0, 0, 1}),
-                          world.robot_state(robot).links[0].world_from_link.rotation.rotate({0, 0, 1}));
+                          world.robots().state(robot).links[0].world_from_link.rotation.rotate({0, 0, 1}));
     if (off < 0) {
       EXPECT_GT(up, 0.999);
     } else {
@@ -171,16 +173,16 @@ class SkidSteering {
 TEST(Crawler, TurnsOnTheSpotAsSlipAllowsNotAsOdometrySays) {
   World world = make_robot_world();
   const RobotModel model = make_crawler(bare());
-  const int robot = world.add_robot(model, {{}, {0, 0, 0.001}});
+  const int robot = world.robots().add(model, {{}, {0, 0, 0.001}});
   const auto turn = [&](double) { return drive_tracks(model, {0, 1}, {}); };
   drive(world, robot, 1, turn);
   const double start = yaw_of(world, robot);
   SkidSteering steering;
   for (int i = 0; i < 60; ++i) {
     drive(world, robot, testing::kRobotStep * 4, turn);
-    const RobotState state = world.robot_state(robot);
+    const RobotState state = world.robots().state(robot);
     const Pose robot_from_world = state.links[0].world_from_link.inverse();
-    for (const RobotContact& c : world.robot_contacts(robot)) {
+    for (const RobotContact& c : world.robots().contacts(robot)) {
       const Vec3 p = robot_from_world * c.point;
       steering.add(p.x, p.y, c.force, state.links[std::size_t(c.link)].belt_speed);
     }
@@ -199,7 +201,7 @@ double climb(bool flippers, double height) {
   CrawlerOptions options;
   options.flippers = flippers;
   const RobotModel model = make_crawler(options);
-  const int robot = world.add_robot(model, {{}, {-0.3, 0, 0.001}});
+  const int robot = world.robots().add(model, {{}, {-0.3, 0, 0.001}});
   // Front flippers up at 50 degrees, then level; rear ones push down.
   drive(world, robot, 8, [&](double t) {
     const double front = t < 4 ? 0.9 : 0, rear = t < 2.5 ? 0.2 : -0.5;
@@ -216,14 +218,14 @@ TEST(Crawler, ClimbsAStepWithItsFlippersOnly) {
 TEST(Rover, RollsAsItsWheelsTurn) {
   World world = make_robot_world();
   const RobotModel model = make_rover();
-  const int robot = world.add_robot(model, {{}, {0, 0, 0.001}});
+  const int robot = world.robots().add(model, {{}, {0, 0, 0.001}});
   const auto forward = [&](double) { return drive_wheels(model, {0.5, 0}); };
   drive(world, robot, 1, forward);
   const double start = position_of(world, robot).x;
-  const double turned = world.robot_state(robot).joints[0].position;
+  const double turned = world.robots().state(robot).joints[0].position;
   drive(world, robot, 2, forward);
   const double way = position_of(world, robot).x - start;
-  const double angle = world.robot_state(robot).joints[0].position - turned;
+  const double angle = world.robots().state(robot).joints[0].position - turned;
   EXPECT_NEAR(angle, 2 * 0.5 / kRoverWheelRadius, 0.02 * angle);
   EXPECT_NEAR(way, angle * kRoverWheelRadius, 0.01 * way);  // a polygon of 32 sides rolls 0.3 % farther
 }
@@ -233,7 +235,7 @@ TEST(Robot, RobotAndDebrisKeepTheirMomentum) {
   World world = make_robot_world({testing::box_type("box", 0.1, 0.1, 0.1)}, 1, 0);
   const int box = world.add({testing::at(0, {-0.3, 0.12, 1})});
   const RobotModel model = make_snake();
-  const int robot = world.add_robot(model, {{}, {0, 0, 1}});
+  const int robot = world.robots().add(model, {{}, {0, 0, 1}});
   bool touched = false;
   const auto thrash = [&](double t) {
     touched = touched || world.is_touching(box);
@@ -246,12 +248,12 @@ TEST(Robot, RobotAndDebrisKeepTheirMomentum) {
   EXPECT_GT(norm(world.piece(box).linear_velocity) * world.mass(box), 0.01);
   // Friction acts on both a millimetre apart, where they were at the start of the step.
   const double given = norm(world.piece(box).linear_velocity) * world.mass(box);
-  EXPECT_LT(norm(world.linear_momentum()), 1e-4 * given);
-  EXPECT_LT(norm(world.angular_momentum()), 0.01 * given);
+  EXPECT_LT(norm(world.diagnostics().linear_momentum()), 1e-4 * given);
+  EXPECT_LT(norm(world.diagnostics().angular_momentum()), 0.01 * given);
   // What moves has been given by the motors.
   double work = 0;
-  for (const RobotState::Joint& joint : world.robot_state(robot).joints) work += joint.work;
-  EXPECT_GT(work, world.kinetic_energy());
+  for (const RobotState::Joint& joint : world.robots().state(robot).joints) work += joint.work;
+  EXPECT_GT(work, world.diagnostics().kinetic_energy());
 }
 
 // A sleeping brick in the way of a crawler wakes, and slides as friction and push say.
@@ -263,7 +265,7 @@ TEST(Robot, ASleepingPieceThatIsPushedWakesAndSlides) {
   const RobotModel model = make_crawler(bare());
   RobotModel plough = model;  // a body down to the ground
   plough.links[0].parts = {make_box({0.7, 0.3, 0.15}, {0.02, 0, 0.085})};
-  const int robot = world.add_robot(plough, {{}, {0, 0, 0.001}});
+  const int robot = world.robots().add(plough, {{}, {0, 0, 0.001}});
   drive(world, robot, 3, [&](double) { return drive_tracks(model, {0.2, 0}, {}); });
   const double pushed = world.piece(brick).world_from_body.translation.x;
   EXPECT_NEAR(pushed, position_of(world, robot).x + 0.37 + 0.055, 0.005);
@@ -281,7 +283,7 @@ TEST(Snake, ManyAloneMoveAlikeOnAnyNumberOfThreads) {
   std::vector<Vec3> centres;
   for (const int threads : {1, 2, 4, 8}) {
     World world = make_robot_world({}, threads);
-    for (int i = 0; i < 6; ++i) world.add_robot(model, {{}, {0, double(i), 0.03}});
+    for (int i = 0; i < 6; ++i) world.robots().add(model, {{}, {0, double(i), 0.03}});
     for (int i = 0; i < 8; ++i) world.step();
     for (int i = 0; i < 6; ++i) centres.push_back(testing::centre_of(world, i));
   }

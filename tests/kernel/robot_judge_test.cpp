@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "kernel/robot/parts.h"
+#include "kernel/world/world_robots.h"
 #include "mujoco_judge.h"
 #include "robot_scenes.h"
 
@@ -69,7 +70,7 @@ double measure_ours(const Scene& scene, SnakeGait gait, double phase) {
   World world = make_robot_world(types);
   world.add(pieces);
   const RobotModel model = make_judged_snake();
-  const int robot = world.add_robot(model, {{}, {0, 0, 0.06}});
+  const int robot = world.robots().add(model, {{}, {0, 0, 0.06}});
   const auto control = [&](double from) {
     return [&model, gait, from, phase](double t) mutable {
       SnakeGait shifted = gait;
@@ -174,7 +175,7 @@ TEST(RobotJudge, AFallingChainGoesWhereMujocosGoes) {
 TEST(NightlyRobotJudge, StepTimesSideBySide) {
   const RobotModel model = make_judged_snake();
   World world = make_robot_world();
-  const int robot = world.add_robot(model, {{}, {0, 0, 0.03}});
+  const int robot = world.robots().add(model, {{}, {0, 0, 0.03}});
   JudgeOptions options;
   options.step = testing::kRobotStep;
   MujocoJudge judge(model, {{}, {0, 0, 0.03}}, options);
@@ -186,14 +187,14 @@ TEST(NightlyRobotJudge, StepTimesSideBySide) {
   for (int i = 0; i < 960; ++i) {
     const RobotCommand command = calc_gait(model, rolling(), i * testing::kRobotStep);
     const double start = now();
-    world.set_command(robot, command);
+    world.robots().set_command(robot, command);
     world.step();
     const double middle = now();
     judge.set_positions(targets_of(command));
     judge.step();
     ours += middle - start;
     theirs += now() - middle;
-    our_contacts += world.robot_contacts(robot).size();
+    our_contacts += world.robots().contacts(robot).size();
     their_contacts += std::size_t(judge.contacts());
   }
   std::printf("a step: %.1f us with %.1f manifolds, MuJoCo %.1f us with %.1f points, ratio %.2f\n",

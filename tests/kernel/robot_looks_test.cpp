@@ -9,6 +9,7 @@
 
 #include "kernel/base/portable_math.h"
 #include "kernel/geometry/hull.h"
+#include "kernel/world/world_robots.h"
 #include "robot_scenes.h"
 
 namespace rubble {
@@ -206,7 +207,7 @@ TEST(RobotLooks, DoNotChangeTheMotion) {
       NewPiece piece;
       piece.placement = {0, 1, {{}, {0.5, 0, 0.03}}, false};
       world.add({piece});
-      const int robot = world.add_robot(model, {{}, {0, 0, 0.03}});
+      const int robot = world.robots().add(model, {{}, {0, 0, 0.03}});
       testing::drive(world, robot, 1, [&](double time) {
         if (model.sides.belts) return drive_tracks(model, {0.5, 0.2}, {});
         if (model.sides.any()) return drive_wheels(model, {0.5, 0.2});

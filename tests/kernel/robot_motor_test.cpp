@@ -6,6 +6,8 @@
 #include "kernel/base/error.h"
 #include "kernel/robot/parts.h"
 #include "kernel/world/world.h"
+#include "kernel/world/world_diagnostics.h"
+#include "kernel/world/world_robots.h"
 #include "scenes.h"
 
 namespace rubble {
@@ -76,30 +78,30 @@ void run(World& world, double seconds) {
 TEST(RobotMotor, ATorqueTurnsBothSidesAndKeepsTheMomentum) {
   World world = make_world(0);
   const RobotModel model = make_spinner({5, 0, 0, 0});
-  const int robot = world.add_robot(model, {{}, {0, 0, 1}});
-  world.set_command(robot, ask(MotorMode::torque, 0.02));
+  const int robot = world.robots().add(model, {{}, {0, 0, 1}});
+  world.robots().set_command(robot, ask(MotorMode::torque, 0.02));
   run(world, 1);
   const double a = model.links[0].inertia.rows[2].z, b = model.links[1].inertia.rows[2].z;
-  const RobotState state = world.robot_state(robot);
+  const RobotState state = world.robots().state(robot);
   EXPECT_NEAR(state.joints[0].speed, 0.02 * (1 / a + 1 / b), 1e-6 * state.joints[0].speed);
   EXPECT_NEAR(state.joints[0].torque, 0.02, 1e-8);  // the step is a float
-  EXPECT_NEAR(norm(world.angular_momentum()), 0, 1e-12);
-  EXPECT_NEAR(norm(world.linear_momentum()), 0, 1e-12);
+  EXPECT_NEAR(norm(world.diagnostics().angular_momentum()), 0, 1e-12);
+  EXPECT_NEAR(norm(world.diagnostics().linear_momentum()), 0, 1e-12);
   // What the motor gave is there.
-  EXPECT_NEAR(state.joints[0].work, world.kinetic_energy(), 0.01 * world.kinetic_energy());
+  EXPECT_NEAR(state.joints[0].work, world.diagnostics().kinetic_energy(), 0.01 * world.diagnostics().kinetic_energy());
 }
 
 TEST(RobotMotor, TheTorqueNeverExceedsTheEffort) {
   World world = make_world(0);
   const RobotModel model = make_spinner({0.01, 0, 50, 5});
-  const int robot = world.add_robot(model, {{}, {0, 0, 1}});
+  const int robot = world.robots().add(model, {{}, {0, 0, 1}});
   const double a = model.links[0].inertia.rows[2].z, b = model.links[1].inertia.rows[2].z;
   for (const RobotCommand& command :
        {ask(MotorMode::torque, 3), ask(MotorMode::velocity, 100), ask(MotorMode::position, 1e4)}) {
-    const double before = world.robot_state(robot).joints[0].speed;
-    world.set_command(robot, command);
+    const double before = world.robots().state(robot).joints[0].speed;
+    world.robots().set_command(robot, command);
     run(world, 0.5);
-    const RobotState state = world.robot_state(robot);
+    const RobotState state = world.robots().state(robot);
     EXPECT_NEAR(state.joints[0].torque, 0.01, 1e-8);
     EXPECT_NEAR(state.joints[0].speed - before, 0.005 * (1 / a + 1 / b), 1e-6 * state.joints[0].speed);
   }
@@ -107,23 +109,23 @@ TEST(RobotMotor, TheTorqueNeverExceedsTheEffort) {
 
 TEST(RobotMotor, AVelocityIsReachedAndLimited) {
   World world = make_world(0);
-  const int robot = world.add_robot(make_spinner({5, 4, 0, 2}), {{}, {0, 0, 1}});
-  world.set_command(robot, ask(MotorMode::velocity, 2));
+  const int robot = world.robots().add(make_spinner({5, 4, 0, 2}), {{}, {0, 0, 1}});
+  world.robots().set_command(robot, ask(MotorMode::velocity, 2));
   run(world, 1);
-  EXPECT_NEAR(world.robot_state(robot).joints[0].speed, 2, 1e-3);
-  world.set_command(robot, ask(MotorMode::velocity, 9));
+  EXPECT_NEAR(world.robots().state(robot).joints[0].speed, 2, 1e-3);
+  world.robots().set_command(robot, ask(MotorMode::velocity, 9));
   run(world, 1);
-  EXPECT_NEAR(world.robot_state(robot).joints[0].speed, 4, 1e-3);
+  EXPECT_NEAR(world.robots().state(robot).joints[0].speed, 4, 1e-3);
 }
 
 // Level, its weight pulls with m g 0.25: the spring gives way by that over its stiffness.
 TEST(RobotMotor, APositionHoldsAgainstGravityWithItsStiffness) {
   World world = make_world(kG);
   const RobotModel model = make_arm({50, 2, 80, 4});
-  const int robot = world.add_robot(model, {{}, {0, 0, 0.001}});
-  world.set_command(robot, ask(MotorMode::position, 0));
+  const int robot = world.robots().add(model, {{}, {0, 0, 0.001}});
+  world.robots().set_command(robot, ask(MotorMode::position, 0));
   run(world, 4);
-  const RobotState state = world.robot_state(robot);
+  const RobotState state = world.robots().state(robot);
   const double q = state.joints[0].position;
   EXPECT_NEAR(q, 2 * kG * 0.25 * std::cos(q) / 80, 1e-5);
   EXPECT_NEAR(state.joints[0].torque, -2 * kG * 0.25 * std::cos(q), 1e-3);
@@ -138,40 +140,40 @@ TEST(RobotMotor, AWeakMotorLetsTheArmFallToItsStop) {
   RobotModel model = make_arm({3, 2, 80, 4});  // needs 4.9
   model.joints[0].upper = 0.4;
   World world = make_world(kG);
-  const int robot = world.add_robot(model, {{}, {0, 0, 0.001}});
-  world.set_command(robot, ask(MotorMode::position, 0));
+  const int robot = world.robots().add(model, {{}, {0, 0, 0.001}});
+  world.robots().set_command(robot, ask(MotorMode::position, 0));
   run(world, 3);
-  EXPECT_NEAR(world.robot_state(robot).joints[0].position, 0.4, 0.01);
+  EXPECT_NEAR(world.robots().state(robot).joints[0].position, 0.4, 0.01);
 }
 
 // Towards a position the joint turns no faster than the motor may.
 TEST(RobotMotor, APositionIsApproachedAtTheSpeedLimit) {
   World world = make_world(0);
-  const int robot = world.add_robot(make_spinner({5, 0.5, 100, 2}), {{}, {0, 0, 1}});
-  world.set_command(robot, ask(MotorMode::position, 2));
+  const int robot = world.robots().add(make_spinner({5, 0.5, 100, 2}), {{}, {0, 0, 1}});
+  world.robots().set_command(robot, ask(MotorMode::position, 2));
   run(world, 2);
-  const double half = world.robot_state(robot).joints[0].position;
+  const double half = world.robots().state(robot).joints[0].position;
   EXPECT_NEAR(half, 1, 0.02);
-  EXPECT_NEAR(world.robot_state(robot).joints[0].speed, 0.5, 1e-3);
+  EXPECT_NEAR(world.robots().state(robot).joints[0].speed, 0.5, 1e-3);
   run(world, 4);
-  EXPECT_NEAR(world.robot_state(robot).joints[0].position, 2, 1e-3);
+  EXPECT_NEAR(world.robots().state(robot).joints[0].position, 2, 1e-3);
 }
 
 // Gains far beyond what a step could resolve by explicit forces.
 TEST(RobotMotor, NoGainMakesItUnstable) {
   World world = make_world(kG);
-  const int robot = world.add_robot(make_arm({1e6, 0, 1e8, 1e6}), {{}, {0, 0, 0.001}});
-  world.set_command(robot, ask(MotorMode::position, -0.3));
+  const int robot = world.robots().add(make_arm({1e6, 0, 1e8, 1e6}), {{}, {0, 0, 0.001}});
+  world.robots().set_command(robot, ask(MotorMode::position, -0.3));
   run(world, 2);
-  EXPECT_NEAR(world.robot_state(robot).joints[0].position, -0.3, 1e-4);
-  EXPECT_LT(world.kinetic_energy(), 1e-6);
+  EXPECT_NEAR(world.robots().state(robot).joints[0].position, -0.3, 1e-4);
+  EXPECT_LT(world.diagnostics().kinetic_energy(), 1e-6);
 }
 
 TEST(RobotMotor, ACommandThatIsNotANumberIsRefused) {
   World world = make_world(0);
-  const int robot = world.add_robot(make_spinner({5, 0, 0, 2}), {{}, {0, 0, 1}});
+  const int robot = world.robots().add(make_spinner({5, 0, 0, 2}), {{}, {0, 0, 1}});
   try {
-    world.set_command(robot, ask(MotorMode::velocity, std::nan("")));
+    world.robots().set_command(robot, ask(MotorMode::velocity, std::nan("")));
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(error.diagnostics()[0].key, "robots[1].spin");

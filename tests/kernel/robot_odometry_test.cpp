@@ -6,6 +6,7 @@
 
 #include "kernel/base/portable_math.h"
 #include "kernel/robot/odometry.h"
+#include "kernel/world/world_robots.h"
 #include "robot_scenes.h"
 
 namespace rubble {
@@ -25,14 +26,14 @@ Ride ride(const RobotModel& model, const Twist& twist, double seconds, bool wall
     piece.placement = {0, 1, {{}, {0.7, 0, 0.5}}, true};
     world.add({piece});
   }
-  const int robot = world.add_robot(model, {{}, {0, 0, 0.001}});
+  const int robot = world.robots().add(model, {{}, {0, 0, 0.001}});
   const bool crawler = model.sides.belts;
   WheelOdometry odometry(model);
   Ride result;
   const Vec3 start = testing::position_of(world, robot);
   double yaw = testing::yaw_of(world, robot);
   testing::drive(world, robot, seconds, [&](double time) {
-    result.last = odometry.update(world.robot_state(robot), time);
+    result.last = odometry.update(world.robots().state(robot), time);
     const double now = testing::yaw_of(world, robot);
     result.turned += std::remainder(now - yaw, 2 * portable::kPi);
     yaw = now;

@@ -7,6 +7,7 @@
 #include "kernel/robot/robot_run.h"
 #include "kernel/settling/generator.h"
 #include "kernel/settling/settle.h"
+#include "kernel/world/world_robots.h"
 #include "robot_scenes.h"
 
 namespace rubble {
@@ -179,17 +180,17 @@ TEST(RobotRun, ASnapshotGoesOnWithTheSameBits) {
   const RobotModel model = make_snake();
   const auto advance = [&model](World& world, int from, int to) {
     for (int i = from; i < to; ++i) {
-      if (i % 4 == 0) world.set_command(0, calc_gait(model, sidewinding(), i / 240.0));
+      if (i % 4 == 0) world.robots().set_command(0, calc_gait(model, sidewinding(), i / 240.0));
       world.step();
     }
   };
   World world = testing::make_robot_world();
-  world.add_robot(model, {{}, {0, 0, 0.03}});
+  world.robots().add(model, {{}, {0, 0, 0.03}});
   advance(world, 0, 200);
   const auto snapshot = world.snapshot();
   advance(world, 200, 400);
   World other = testing::make_robot_world();
-  other.add_robot(model, {{}, {0, 0, 0.03}});
+  other.robots().add(model, {{}, {0, 0, 0.03}});
   other.restore(*snapshot);
   advance(other, 200, 400);
   EXPECT_EQ(testing::hash_of(world), testing::hash_of(other));

@@ -1,3 +1,4 @@
+#include "kernel/world/world_robots.h"
 #include "robot_scenes.h"
 
 #include <cmath>
@@ -16,23 +17,23 @@ World make_robot_world(std::vector<PieceType> types, int threads, double gravity
 void drive(World& world, int robot, double seconds, const Controller& controller) {
   const int steps = int(seconds / kRobotStep + 0.5);
   for (int i = 0; i < steps; ++i) {
-    if (i % 4 == 0) world.set_command(robot, controller(i * kRobotStep));
+    if (i % 4 == 0) world.robots().set_command(robot, controller(i * kRobotStep));
     world.step();
   }
 }
 
 double yaw_of(const World& world, int robot) {
-  const Vec3 x = world.robot_state(robot).links[0].world_from_link.rotation.rotate({1, 0, 0});
+  const Vec3 x = world.robots().state(robot).links[0].world_from_link.rotation.rotate({1, 0, 0});
   return std::atan2(x.y, x.x);
 }
 
 Vec3 position_of(const World& world, int robot) {
-  return world.robot_state(robot).links[0].world_from_link.translation;
+  return world.robots().state(robot).links[0].world_from_link.translation;
 }
 
 Vec3 centre_of(const World& world, int robot) {
-  const RobotModel& model = world.robot_model(robot);
-  const RobotState state = world.robot_state(robot);
+  const RobotModel& model = world.robots().model(robot);
+  const RobotState state = world.robots().state(robot);
   Vec3 sum;
   for (std::size_t i = 0; i < model.links.size(); ++i) {
     sum += (state.links[i].world_from_link * model.links[i].centre_of_mass) * model.links[i].mass;

@@ -14,6 +14,7 @@
 #include "kernel/robot/robot_run.h"
 #include "kernel/surroundings/make_surroundings.h"
 #include "kernel/geometry/mesh_builder.h"
+#include "kernel/world/world_robots.h"
 
 namespace rubble {
 namespace robot_surroundings_test {
@@ -48,7 +49,7 @@ RobotRunResult drive(std::shared_ptr<const Surroundings> surroundings, const Vec
   const RobotModel model = make_rover({});
   run.add(model, {Quat{}, from}, [&](const RobotSense&) { return drive_wheels(model, {speed, 0}); });
   return run.run([&](double) {
-    if (seen) seen(run.world().robot_state(0).links[0].world_from_link);
+    if (seen) seen(run.world().robots().state(0).links[0].world_from_link);
     return true;
   });
 }

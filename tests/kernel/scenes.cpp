@@ -1,3 +1,4 @@
+#include "kernel/world/world_rest.h"
 #include "scenes.h"
 
 #include "kernel/base/hash.h"
@@ -218,7 +219,7 @@ bool run_to_rest(World& world, double seconds) {
   const double end = world.time() + seconds;
   while (world.time() < end) {
     world.step();
-    if (world.at_rest(0.05, 0.2)) return true;
+    if (world.rest().reached(0.05, 0.2)) return true;
   }
   return false;
 }

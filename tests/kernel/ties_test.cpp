@@ -5,7 +5,10 @@
 
 #include "kernel/base/error.h"
 #include "kernel/world/world.h"
+#include "kernel/world/world_diagnostics.h"
+#include "kernel/world/world_rest.h"
 #include "kernel/world/world_snapshot.h"
+#include "kernel/world/world_structures.h"
 #include "scenes.h"
 
 namespace rubble {
@@ -29,7 +32,7 @@ struct Hanging {
       : world({make_box({0.2, 0.2, 0.2}, 12500), make_box({1, 1, 0.2}, 2400)}, options(threads)) {
     world.add({at(1, {0, 0, 5.1}, true), at(0, from)});
     mass = world.mass(1);
-    world.add_tie({0, 1, {0, 0, -0.1}, {}, 1, strength, stretch});
+    world.structures().add_tie({0, 1, {0, 0, -0.1}, {}, 1, strength, stretch});
   }
   static WorldOptions options(int threads) {
     WorldOptions o;
@@ -45,20 +48,20 @@ struct Hanging {
 TEST(Ties, CarryTheWeightOfWhatHangsOnThemAndLetItSleep) {
   Hanging h(1e5, 0.1);
   h.run(3);
-  ASSERT_EQ(h.world.ties().size(), 1u);
-  EXPECT_NEAR(h.world.tie_force(0) / (h.mass * kGravity), 1, 0.01);
+  ASSERT_EQ(h.world.structures().ties().size(), 1u);
+  EXPECT_NEAR(h.world.structures().tie_force(0) / (h.mass * kGravity), 1, 0.01);
   EXPECT_NEAR(h.place().z, 4, 0.002);
   EXPECT_EQ(h.world.awake_count(), 0);
-  EXPECT_EQ(h.world.ties()[0].stretch, 0.1);
-  h.world.begin_rest_verification();
+  EXPECT_EQ(h.world.structures().ties()[0].stretch, 0.1);
+  h.world.rest().begin_verification();
   h.run(1.5);
-  EXPECT_TRUE(h.world.rest_verified(0.05, 0.2));
+  EXPECT_TRUE(h.world.rest().verified(0.05, 0.2));
 }
 
 TEST(Ties, OfASlackBarDoNothing) {
   Hanging h(1e5, 0.1, {0, 0, 4.5});
   h.run(0.25);
-  EXPECT_EQ(h.world.tie_force(0), 0);
+  EXPECT_EQ(h.world.structures().tie_force(0), 0);
   EXPECT_NEAR(h.place().z, 4.5 - kGravity * 0.25 * 0.25 / 2, 1e-9);
   h.run(3);
   EXPECT_NEAR(h.place().z, 4, 0.02);
@@ -90,11 +93,11 @@ TEST(Ties, StopAFallByYieldingAsTheEnergySays) {
   const double drop = 0.9;
   Hanging h(8000, 1, {0, 0, 4 + drop});
   h.run(3);
-  ASSERT_EQ(h.world.ties().size(), 1u);
-  const double stretched = h.world.ties()[0].length - 1;
+  ASSERT_EQ(h.world.structures().ties().size(), 1u);
+  const double stretched = h.world.structures().ties()[0].length - 1;
   const double expected = h.mass * kGravity * drop / (8000 - h.mass * kGravity);
   EXPECT_NEAR(stretched / expected, 1, 0.05);
-  EXPECT_NEAR(h.world.tie_energy() / (8000 * stretched), 1, 1e-9);
+  EXPECT_NEAR(h.world.structures().tie_energy() / (8000 * stretched), 1, 1e-9);
   EXPECT_NEAR(h.place().z, 4 - stretched, 0.003);
 }
 
@@ -103,12 +106,12 @@ TEST(Ties, TearWhenTheyAreStretchedOutAndTakeTheirEnergy) {
   const double drop = 0.9, stretch = 0.05;
   Hanging h(4000, stretch, {0, 0, 4 + drop});
   double speed = 0;
-  while (!h.world.ties().empty() && h.world.time() < 2) {
+  while (!h.world.structures().ties().empty() && h.world.time() < 2) {
     h.world.step();
     speed = -h.world.piece(1).linear_velocity.z;
   }
-  ASSERT_TRUE(h.world.ties().empty());
-  EXPECT_NEAR(h.world.tie_energy() / (4000 * stretch), 1, 1e-6);
+  ASSERT_TRUE(h.world.structures().ties().empty());
+  EXPECT_NEAR(h.world.structures().tie_energy() / (4000 * stretch), 1, 1e-6);
   const double fallen = 4 + drop - h.place().z;
   const double left = h.mass * kGravity * fallen - 0.5 * h.mass * speed * speed;
   EXPECT_NEAR(left / (4000 * stretch), 1, 0.25) << "to a step's share";
@@ -124,7 +127,7 @@ TEST(Ties, ThatAreTooWeakYieldUntilTheyTear) {
   const double a = kGravity - 500 / h.mass;
   EXPECT_NEAR((4 - h.place().z) / (0.5 * a * 0.01), 1, 0.2);
   h.run(0.5);
-  EXPECT_TRUE(h.world.ties().empty());
+  EXPECT_TRUE(h.world.structures().ties().empty());
 }
 
 TEST(Ties, KeepMomentumWhereTwoBodiesPullEachOther) {
@@ -134,18 +137,18 @@ TEST(Ties, KeepMomentumWhereTwoBodiesPullEachOther) {
   NewPiece flying = at(1, {0, 0.6, 50.2});
   flying.linear_velocity = {3, 2, 1};
   world.add({at(0, {0, 0, 50}), flying});
-  world.add_tie({0, 1, {0.15, 0.1, 0.1}, {0, -0.2, 0}, 0.8, 5e4, 0.3});
-  const Vec3 p = world.linear_momentum(), l = world.angular_momentum();
-  const double energy = world.kinetic_energy();
+  world.structures().add_tie({0, 1, {0.15, 0.1, 0.1}, {0, -0.2, 0}, 0.8, 5e4, 0.3});
+  const Vec3 p = world.diagnostics().linear_momentum(), l = world.diagnostics().angular_momentum();
+  const double energy = world.diagnostics().kinetic_energy();
   double pulled = 0;
   for (int i = 0; i < 120; ++i) {
     world.step();
-    if (!world.ties().empty()) pulled = std::max(pulled, world.tie_force(0));
-    EXPECT_LT(world.kinetic_energy(), energy * 1.0001);
+    if (!world.structures().ties().empty()) pulled = std::max(pulled, world.structures().tie_force(0));
+    EXPECT_LT(world.diagnostics().kinetic_energy(), energy * 1.0001);
   }
   EXPECT_GT(pulled, 100) << "it was taut";
-  EXPECT_LT(norm(world.linear_momentum() - p), 1e-3 * norm(p));
-  EXPECT_LT(norm(world.angular_momentum() - l), 0.02 * norm(l));
+  EXPECT_LT(norm(world.diagnostics().linear_momentum() - p), 1e-3 * norm(p));
+  EXPECT_LT(norm(world.diagnostics().angular_momentum() - l), 0.02 * norm(l));
 }
 
 // A plate that lay level between two bars of its edge turns down about that edge.
@@ -153,14 +156,14 @@ TEST(Ties, LetAPlateHangByItsEdge) {
   World world({make_box({2, 2, 0.3}, 2400), make_box({1.2, 1.2, 0.15}, 2400)});
   world.add({at(0, {0, 0, 4}, true), at(1, {1.605, 0, 4})});
   for (const double y : {-0.4, 0.4}) {
-    world.add_tie({0, 1, {0.9, y, 0}, {-0.5, y, 0}, 0.29, 1e5, 0.05, 300});
+    world.structures().add_tie({0, 1, {0.9, y, 0}, {-0.5, y, 0}, 0.29, 1e5, 0.05, 300});
   }
   for (int i = 0; i < 1200; ++i) world.step();
-  EXPECT_EQ(world.ties().size(), 2u);
+  EXPECT_EQ(world.structures().ties().size(), 2u);
   const Vec3 outwards = world.piece(1).world_from_body.rotation.rotate({1, 0, 0});
   EXPECT_LT(outwards.z, -0.8) << "bent bars hold it back a little";
   EXPECT_EQ(world.awake_count(), 0);
-  EXPECT_NEAR((world.tie_force(0) + world.tie_force(1)) / (world.mass(1) * kGravity), 1, 0.35)
+  EXPECT_NEAR((world.structures().tie_force(0) + world.structures().tie_force(1)) / (world.mass(1) * kGravity), 1, 0.35)
       << "it leans on the edge as well";
 }
 
@@ -170,7 +173,7 @@ TEST(Ties, BrakeTheTurningOfWhatHangsOnThem) {
   NewPiece spinning = at(0, {0, 0, 4});
   spinning.angular_velocity = {0, 0, 6};
   world.add({at(1, {0, 0, 5.15}, true), spinning});
-  world.add_tie({0, 1, {0, 0, -0.15}, {0, 0, 0.2}, 0.8, 1e6, 0.05, 20});
+  world.structures().add_tie({0, 1, {0, 0, -0.15}, {0, 0, 0.2}, 0.8, 1e6, 0.05, 20});
   const double inertia = world.mass(1) * 0.16 / 6, expected = 6 * inertia / 20;
   double time = 0;
   while (std::abs(world.piece(1).angular_velocity.z) > 0.01 && time < 60) world.step(), time += kStep;
@@ -200,7 +203,7 @@ TEST(Ties, OutOfRangeAreRefusedByTheirKey) {
   Hanging h(1e4, 0.1);
   const auto message = [&](const TieState& tie) {
     try {
-      h.world.add_tie(tie);
+      h.world.structures().add_tie(tie);
     } catch (const InputError& error) {
       return std::string(error.what());
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/robot/robot_run.h"
+#include "kernel/world/world_robots.h"
 #include "robot_scenes.h"
 
 namespace rubble {
@@ -19,11 +20,11 @@ RobotModel make_short_vine() {
 }
 
 void move(World& world, double seconds, const Growth& growth, const std::function<void(const RobotState&)>& look = {}) {
-  const RobotModel model = world.robot_model(0);
+  const RobotModel model = world.robots().model(0);
   for (int i = 0; i < int(seconds / kRobotStep + 0.5); ++i) {
-    if (i % 4 == 0) world.set_command(0, drive_vine(model, growth));
+    if (i % 4 == 0) world.robots().set_command(0, drive_vine(model, growth));
     world.step();
-    if (look) look(world.robot_state(0));
+    if (look) look(world.robots().state(0));
   }
 }
 
@@ -31,15 +32,15 @@ void move(World& world, double seconds, const Growth& growth, const std::functio
 TEST(VineRetraction, TakesBackTheLengthThatTheReelWinds) {
   World world = make_robot_world();
   const RobotModel model = make_short_vine();
-  world.add_robot(model, {{}, {0, 0, 0.051}});
+  world.robots().add(model, {{}, {0, 0, 0.051}});
   move(world, 0.5, {});
-  const RobotState start = world.robot_state(0);
+  const RobotState start = world.robots().state(0);
   move(world, 6, {0.2, 0, 0});
   move(world, 0.5, {});
-  const RobotState grown = world.robot_state(0);
+  const RobotState grown = world.robots().state(0);
   move(world, 4, {-0.15, 0, 0});
   move(world, 0.5, {});
-  const RobotState half = world.robot_state(0);
+  const RobotState half = world.robots().state(0);
   // The motor holds the speed against the losses of eversion by its gain.
   const double gain = model.joints.back().motor.damping;
   EXPECT_NEAR(half.length, grown.length - 4 * 0.15 * gain / (gain + model.tube->speed_loss()), 0.001);
@@ -48,7 +49,7 @@ TEST(VineRetraction, TakesBackTheLengthThatTheReelWinds) {
     EXPECT_LT(distance(grown.links[i].world_from_link.translation, half.links[i].world_from_link.translation), 0.001) << i;
   EXPECT_NEAR(half.links.back().world_from_link.translation.x, half.length, 0.002);
   move(world, 12, {-0.15, 0, 0});
-  const RobotState end = world.robot_state(0);
+  const RobotState end = world.robots().state(0);
   EXPECT_NEAR(end.length, model.tube->start_links * model.tube->link_length, 1e-6) << "no shorter than it began";
   EXPECT_NEAR(norm(end.links.back().world_from_link.translation - start.links.back().world_from_link.translation), 0,
               0.002);
@@ -58,7 +59,7 @@ TEST(VineRetraction, TakesBackTheLengthThatTheReelWinds) {
 TEST(VineRetraction, TheTipReturnsAlongItsPath) {
   World world = make_robot_world({}, 1, 0);
   const RobotModel model = make_short_vine();
-  world.add_robot(model, {{}, {0, 0, 3}});
+  world.robots().add(model, {{}, {0, 0, 3}});
   std::vector<std::pair<double, Pose>> way;
   const auto note = [&](const RobotState& state) {
     way.push_back({state.length, state.links.back().world_from_link});
@@ -66,7 +67,7 @@ TEST(VineRetraction, TheTipReturnsAlongItsPath) {
   move(world, 3, {0.2, 1.2, 0}, note);
   move(world, 4, {0.2, -0.5, 0.8}, note);
   move(world, 1, {});
-  const RobotState grown = world.robot_state(0);
+  const RobotState grown = world.robots().state(0);
   double farthest = 0, most_turned = 0;
   std::size_t compared = 0;
   move(world, 8, {-0.2, 0.7, 0.7}, [&](const RobotState& state) {  // curvature is of what grows
@@ -80,7 +81,7 @@ TEST(VineRetraction, TheTipReturnsAlongItsPath) {
   });
   EXPECT_GT(grown.length, 1.4);
   EXPECT_GT(grown.links.back().world_from_link.translation.y, 0.3) << "it was to be bent";
-  EXPECT_NEAR(world.robot_state(0).length, model.tube->start_links * model.tube->link_length, 1e-6);
+  EXPECT_NEAR(world.robots().state(0).length, model.tube->start_links * model.tube->link_length, 1e-6);
   EXPECT_GT(compared, 1500U);
   // A step is 0.8 mm, bends lag by 20 ms (0.01 rad, there and back), and the tube swings when the reel sets in.
   EXPECT_LT(farthest, 0.006);
@@ -90,7 +91,7 @@ TEST(VineRetraction, TheTipReturnsAlongItsPath) {
 // What lay on the tube falls when it is gone.
 TEST(VineRetraction, LetsGoOfWhatLiesOnIt) {
   World world = make_robot_world({testing::box_type("plate", 0.4, 0.4, 0.02)});
-  world.add_robot(make_short_vine(), {{}, {0, 0, 0.051}});
+  world.robots().add(make_short_vine(), {{}, {0, 0, 0.051}});
   move(world, 5, {0.2, 0, 0});
   const int plate = world.add({testing::at(0, {0.6, 0, 0.12})});
   move(world, 1, {});
@@ -107,7 +108,7 @@ TEST(VineRetraction, ASnapshotInMidRetractionGoesOnWithTheSameBits) {
   const auto make = [] {
     World world = make_robot_world({testing::box_type("brick", 0.22, 0.105, 0.065)});
     world.add({testing::at(0, {0.5, 0.03, 0.033}), testing::at(0, {0.62, -0.02, 0.1})});
-    world.add_robot(make_short_vine(), {{}, {0, 0, 0.051}});
+    world.robots().add(make_short_vine(), {{}, {0, 0, 0.051}});
     return world;
   };
   World world = make();

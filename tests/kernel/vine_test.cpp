@@ -7,6 +7,7 @@
 #include "kernel/base/error.h"
 #include "kernel/robot/robot_run.h"
 #include "kernel/settling/settle.h"
+#include "kernel/world/world_robots.h"
 #include "robot_scenes.h"
 
 namespace rubble {
@@ -28,11 +29,11 @@ VineOptions vine_of(double pressure, double radius, double length) {
 // Grows for some seconds; `look` after each step, false to stop.
 void grow(World& world, int robot, double seconds, const Growth& growth,
           const std::function<bool(const RobotState&)>& look = {}) {
-  const RobotModel model = world.robot_model(robot);
+  const RobotModel model = world.robots().model(robot);
   for (int i = 0; i < int(seconds / kRobotStep + 0.5); ++i) {
-    if (i % 4 == 0) world.set_command(robot, drive_vine(model, growth));
+    if (i % 4 == 0) world.robots().set_command(robot, drive_vine(model, growth));
     world.step();
-    if (look && !look(world.robot_state(robot))) return;
+    if (look && !look(world.robots().state(robot))) return;
   }
 }
 
@@ -51,7 +52,7 @@ double collapse_length(const VineOptions& options) {
 Overhang grow_over_an_edge(VineOptions options) {
   options.tube.start_links = int(0.6 * collapse_length(options) / options.tube.link_length);
   World world = make_robot_world();
-  const int robot = world.add_robot(make_vine(options), {{}, {0, 0, 50}});
+  const int robot = world.robots().add(make_vine(options), {{}, {0, 0, 50}});
   grow(world, robot, 1, {});
   Overhang result;
   grow(world, robot, 60, {0.06, 0, 0}, [&](const RobotState& state) {
@@ -91,9 +92,9 @@ TEST(VineCollapse, WrinklesAtHalfTheCollapseMoment) {
       const double arm = length + make_vine(options).links.back().centre_of_mass.x;
       options.tip_mass = (wanted - own) / (kG * arm);
       World world = make_robot_world();
-      const int robot = world.add_robot(make_vine(options), {{}, {0, 0, 5}});
+      const int robot = world.robots().add(make_vine(options), {{}, {0, 0, 5}});
       grow(world, robot, 5, {});
-      const RobotState::Joint root = world.robot_state(robot).joints[0];
+      const RobotState::Joint root = world.robots().state(robot).joints[0];
       const double moment = -root.load_moment.y;
       EXPECT_NEAR(moment, wanted, 0.002 * wanted);
       const double stiffness = options.tube.bending_stiffness() / options.tube.link_length;
@@ -113,12 +114,12 @@ TEST(Vine, ATautTubeBendsAsABeam) {
   options.tube.start_links = options.tube.links;
   World world = make_robot_world();
   const RobotModel model = make_vine(options);
-  const int robot = world.add_robot(model, {{}, {0, 0, 5}});
+  const int robot = world.robots().add(model, {{}, {0, 0, 5}});
   grow(world, robot, 4, {});
   const double l = options.tube.length(), ei = options.tube.bending_stiffness();
   const double w = options.tube.mass_per_length() * kG, f = options.tip_mass * kG;
   const double expected = f * l * l * l / (3 * ei) + w * l * l * l * l / (8 * ei);
-  const double found = 5 - world.robot_state(robot).links.back().world_from_link.translation.z;
+  const double found = 5 - world.robots().state(robot).links.back().world_from_link.translation.z;
   EXPECT_NEAR(found, expected, 0.03 * expected);
 }
 
@@ -126,7 +127,7 @@ TEST(Vine, WhatHasGrownDoesNotSlide) {
   const VineOptions options = vine_of(10e3, 0.05, 2);
   World world = make_robot_world();
   const RobotModel model = make_vine(options);
-  const int robot = world.add_robot(model, {{}, {0, 0, options.tube.radius + 0.001}});
+  const int robot = world.robots().add(model, {{}, {0, 0, options.tube.radius + 0.001}});
   std::vector<Vec3> laid;  // where each link was laid, by link
   double most = 0;
   grow(world, robot, 8, {0.2, 0, 0}, [&](const RobotState& state) {
@@ -139,7 +140,7 @@ TEST(Vine, WhatHasGrownDoesNotSlide) {
     }
     return true;
   });
-  EXPECT_NEAR(world.robot_state(robot).length, 0.1 + 8 * 0.2, 0.02);
+  EXPECT_NEAR(world.robots().state(robot).length, 0.1 + 8 * 0.2, 0.02);
   EXPECT_GT(laid.size(), 30u);
   EXPECT_LT(most, 0.001);
 }
@@ -151,7 +152,7 @@ TEST(Vine, StopsGrowingAtTheForceOfItsPressure) {
     world.add({testing::at(0, {0.9, 0, 1}, {}, true)});  // its face is 0.65 m away
     const VineOptions options = vine_of(pressure, radius, 1.5);
     const RobotModel model = make_vine(options);
-    const int robot = world.add_robot(model, {{}, {0, 0, radius + 0.001}});
+    const int robot = world.robots().add(model, {{}, {0, 0, radius + 0.001}});
     double force = 0, length = 0;
     int count = 0;
     grow(world, robot, 5, {0.2, 0, 0}, [&](const RobotState& state) {
@@ -161,7 +162,7 @@ TEST(Vine, StopsGrowingAtTheForceOfItsPressure) {
       ++count;
       return true;
     });
-    const RobotState state = world.robot_state(robot);
+    const RobotState state = world.robots().state(robot);
     const EvertingTube& tube = options.tube;
     const double expected = (pressure - tube.yield_pressure) * kPi * radius * radius - tube.tail_drag * state.length;
     EXPECT_NEAR(force / count, expected, 0.02 * expected);
@@ -176,14 +177,14 @@ TEST(Vine, GrowsAsFastAsThePressureAllows) {
   for (const double pressure : {1.4e3, 4e3}) {
     options.tube.pressure = pressure;
     World world = make_robot_world();
-    const int robot = world.add_robot(make_vine(options), {{}, {0, 0, 0.051}});
+    const int robot = world.robots().add(make_vine(options), {{}, {0, 0, 0.051}});
     grow(world, robot, 1, {0.3, 0, 0});
-    const double start = world.robot_state(robot).length;
+    const double start = world.robots().state(robot).length;
     grow(world, robot, 2, {0.3, 0, 0});
     const EvertingTube& tube = options.tube;
     const double drag = tube.tail_drag * (start + 0.1) / tube.area();
     const double expected = std::max(0.0, tube.extensibility * (pressure - tube.yield_pressure - drag));
-    EXPECT_NEAR((world.robot_state(robot).length - start) / 2, expected, 0.03 * expected + 1e-6) << pressure;
+    EXPECT_NEAR((world.robots().state(robot).length - start) / 2, expected, 0.03 * expected + 1e-6) << pressure;
   }
 }
 
@@ -199,9 +200,9 @@ TEST(VineCollapse, BucklesBetweenBaseAndWallAtEulersLength) {
       World world = make_robot_world({testing::box_type("wall", 0.5, 4, 4)}, 1, 0.05);
       const double wall = share * euler;
       world.add({testing::at(0, {wall + 0.25, 0, 2}, {}, true)});
-      const int robot = world.add_robot(make_vine(options), {{}, {0, 0, 2}});
+      const int robot = world.robots().add(make_vine(options), {{}, {0, 0, 2}});
       grow(world, robot, wall / 0.2 + 6, {0.2, 0, 0});
-      const double beyond = world.robot_state(robot).length - wall;
+      const double beyond = world.robots().state(robot).length - wall;
       EXPECT_EQ(beyond > 0.1, share > 1) << pressure << ' ' << beyond;
     }
   }
@@ -210,10 +211,10 @@ TEST(VineCollapse, BucklesBetweenBaseAndWallAtEulersLength) {
 // What grows is curved as commanded.
 TEST(Vine, SteersByTheCurvatureOfWhatGrows) {
   World world = make_robot_world({}, 1, 0);
-  const int robot = world.add_robot(make_vine(vine_of(10e3, 0.05, 2)), {{}, {0, 0, 3}});
+  const int robot = world.robots().add(make_vine(vine_of(10e3, 0.05, 2)), {{}, {0, 0, 3}});
   grow(world, robot, 5, {0.2, 0.8, 0.5});
   grow(world, robot, 1, {});
-  const RobotState state = world.robot_state(robot);
+  const RobotState state = world.robots().state(robot);
   const Vec3 x = state.links.back().world_from_link.rotation.rotate({1, 0, 0});
   const double grown = state.length - 0.1, turned = std::acos(x.x);
   EXPECT_NEAR(turned, grown * std::hypot(0.8, 0.5), 0.04 * turned);
@@ -227,16 +228,16 @@ TEST(Vine, ASnapshotInMidGrowthGoesOnWithTheSameBits) {
   const auto make = [&] {
     World world = make_robot_world({testing::box_type("brick", 0.22, 0.105, 0.065)});
     world.add({testing::at(0, {0.5, 0.03, 0.033}), testing::at(0, {0.62, -0.02, 0.1})});
-    world.add_robot(make_vine(options), {{}, {0, 0, 0.051}});
+    world.robots().add(make_vine(options), {{}, {0, 0, 0.051}});
     return world;
   };
   const Growth growth{0.25, 0.3, 0.1};
   World world = make();
   grow(world, 0, 2.1, growth);
   const auto snapshot = world.snapshot();
-  const double half = world.robot_state(0).length;
+  const double half = world.robots().state(0).length;
   grow(world, 0, 2, growth);
-  EXPECT_GT(world.robot_state(0).length, half + 0.2);
+  EXPECT_GT(world.robots().state(0).length, half + 0.2);
   World other = make();
   other.restore(*snapshot);
   grow(other, 0, 2, growth);
@@ -309,7 +310,7 @@ TEST(NightlyVine, AStepWith100LinksTakesLessThan10Milliseconds) {
   World world = make_robot_world();
   VineOptions options = vine_of(10e3, 0.05, 5.2);
   options.tube.start_links = 100;
-  const int robot = world.add_robot(make_vine(options), {{}, {0, 0, 0.051}});
+  const int robot = world.robots().add(make_vine(options), {{}, {0, 0, 0.051}});
   grow(world, robot, 0.5, {0.2, 0, 0});
   const std::clock_t start = std::clock();
   grow(world, robot, 1, {0.2, 0, 0});

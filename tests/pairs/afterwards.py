@@ -181,7 +181,7 @@ def cutaway(tools, data):
 def export(tools, data):
     """Meshes that are exported later have the bytes of those of the run."""
     tools.rubble("export", tools.out, "--out", tools.folder("exported"), "--quiet")
-    for name in ("pile.stl", "pile.ply", "pile.obj", "pile.glb", "sdf/pile.sdf"):
+    for name in ("pile.stl", "pile.ply", "pile.obj", "pile.glb", "sdf/pile.sdf", "mjcf/pile.xml", "usd/pile.usda", "urdf/fixed.urdf"):
         if data.has(*name.split("/")):
             with open(data.file(*name.split("/")), "rb") as a, open(tools.folder("exported/" + name), "rb") as b:
                 need(a.read() == b.read(), "export: %s has other bytes than that of the run", name)

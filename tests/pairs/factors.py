@@ -299,7 +299,7 @@ SCAN_FILES = {
 MESHES = {
     "none": {"outputs": {"stl": False}},
     "stl": {"outputs": {"stl": True, "meshes": ["ply"]}},
-    "all": {"outputs": {"stl": True, "meshes": ["ply", "obj", "glb", "sdf"]}},
+    "all": {"outputs": {"stl": True, "meshes": ["ply", "obj", "glb", "sdf", "mjcf", "usd", "urdf"]}},
 }
 
 TRACKS = {

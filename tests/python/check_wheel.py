@@ -17,6 +17,9 @@ with zipfile.ZipFile(wheel) as archive:
     record = next(name for name in names if name.endswith(".dist-info/RECORD"))
     rows = list(csv.reader(io.StringIO(archive.read(record).decode())))
     assert sorted(row[0] for row in rows) == sorted(names), "the record lists other files"
+    points = next(name for name in names if name.endswith(".dist-info/entry_points.txt"))
+    module, call = archive.read(points).decode().split(" = ")[1].strip().split(":")
+    assert f"def {call}(" in archive.read(module + ".py").decode(), points
     for name, digest, size in rows:
         if name == record:
             continue

@@ -54,6 +54,23 @@ TEST(NightlyPython, ArraysAreWholeWithNumpyOneAndTwo) {
   }
 }
 
+// A folder of its own with the packages of tests/python/requirements.txt; empty: no index is reached.
+std::string install_requirements(Ran& pip) {
+  const std::string folder = std::filesystem::temp_directory_path() / ("rubble_gym_" + std::to_string(getpid()));
+  pip = run("python3 -m pip install --quiet --disable-pip-version-check --no-deps --only-binary=:all: --python-version "
+            "$(/usr/bin/python3 -c 'import sys; print(\"%d.%d\" % sys.version_info[:2])') --target " + folder +
+            " -r tests/python/requirements.txt");
+  return pip.status == 0 ? folder : "";
+}
+
+TEST(PythonGymnasium, MakesThemAndHasNothingToSay) {
+  Ran pip;
+  const std::string folder = install_requirements(pip);
+  if (folder.empty()) GTEST_SKIP() << "no index of packages is reached: " << pip.output;
+  expect_tests("test_gymnasium.py", "PYTHONPATH=" + folder + ":'" RUBBLE_PYTHON_PATH "'");
+  std::filesystem::remove_all(folder);
+}
+
 TEST(PythonDocument, RunsAsItIsWritten) { expect_tests("test_document.py"); }
 TEST(PythonEnvironments, RepeatTheirEpisodes) { expect_tests("test_envs.py"); }
 

@@ -83,7 +83,7 @@ class Contract(unittest.TestCase):
                          "turning to the left -1 to 1 of 1 rad/s)")
         self.assertEqual(str(make(CrawlerNav).observation_space["goal"]),
                          "Box((3,), float32: distance 0 to 100 m, cosine of bearing -1 to 1, sine of bearing -1 to 1)")
-        self.assertEqual(str(make(SnakeExplore).observation_space["depth"]), "Box((16, 16), float32, 0 to 4 m)")
+        self.assertEqual(str(make(SnakeExplore).observation_space["depth"]), "Box((16, 16, 1), uint8, 0 to 255 levels of 4/255 m)")
         self.assertEqual(str(Box(0, 1, (2,))), "Box((2,), float32, 0 to 1)")
 
     def test_observations_are_in_their_space_at_the_limits_of_actions(self):

@@ -11,6 +11,7 @@ import numpy as np
 
 import rubble
 from rubble.envs import CrawlerNav, SnakeExplore, VoidExplore
+from rubble.envs.pictures import Section
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from shared_piles import share_piles
@@ -239,7 +240,7 @@ class Rules(unittest.TestCase):
         self.assertEqual(stops, info["stops"])
 
     def test_colour_is_what_the_renderer_draws(self):
-        env = VoidExplore(colour=True, size=32, max_steps=3, pile_seeds=[1])
+        env = VoidExplore(colour=True, size=32, max_steps=3, pile_seeds=[1], metres=True)
         observation, _ = env.reset(seed=1)
         self.assertTrue(env.observation_space.contains(observation))
         drawn = rubble.Renderer(env._world.pile).render(env._body(), 32, 32)
@@ -249,7 +250,7 @@ class Rules(unittest.TestCase):
         self.assertLess(np.quantile(np.abs(drawn["depth"] - observation["depth"])[seen], 0.9), 1e-3)
 
     def test_depth_is_that_of_the_pile(self):
-        env = VoidExplore(**SMALL)
+        env = VoidExplore(**SMALL, metres=True)
         observation, _ = env.reset(seed=2)
         body = env._body()
         k = env._world.view.K
@@ -284,17 +285,61 @@ class Rules(unittest.TestCase):
         env.close()
         env.close()
 
-    def test_gymnasiums_checker_where_it_is_installed(self):
-        try:
-            from gymnasium.utils.env_checker import check_env
-        except ImportError:
-            self.skipTest("gymnasium is not installed")
-        import warnings
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            check_env(VoidExplore(**SMALL), skip_render_check=True)
-            check_env(CrawlerNav(**Crawler.OPTIONS), skip_render_check=True)
-            check_env(SnakeExplore(**Snake.OPTIONS), skip_render_check=True)
+    def test_depth_pictures_are_levels_of_metres(self):
+        for kind, options, most in ((VoidExplore, SMALL, 5.0), (SnakeExplore, Snake.OPTIONS, 4.0)):
+            picture = kind(**options).reset(seed=2)[0]["depth"]
+            metres = kind(**options, metres=True).reset(seed=2)[0]["depth"]
+            self.assertEqual((picture.dtype, picture.shape), (np.uint8, metres.shape + (1,)))
+            self.assertLess(np.abs(picture[..., 0] * (most / 255) - metres).max(), most / 510 + 1e-6)
+            self.assertGreater(len(np.unique(picture)), 5)
+
+    def test_episodes_without_a_limit_are_not_truncated(self):
+        env = CrawlerNav(**{**Crawler.OPTIONS, "max_steps": None})
+        env.reset(seed=1)
+        for _ in range(15):
+            self.assertFalse(env.step([0, 0, 0, 0])[3])
+
+
+class Pictures(unittest.TestCase):
+    """What render() draws: the places that the pile has, and those where the body has been."""
+
+    def test_only_an_environment_that_was_asked_to_draws(self):
+        env = VoidExplore(**SMALL)
+        env.reset(seed=1)
+        self.assertIsNone(env.render())
+
+    def test_a_section_is_dark_where_the_pile_is_solid(self):
+        pile = VoidExplore(**SMALL)
+        pile.reset(seed=1)
+        pile = pile._world.pile
+        section = Section(pile, (0.5, 0, 0.3), 2.0, 64)
+        steps = (np.arange(64) + 0.5) / 64 * 4 - 2
+        x, y = np.meshgrid(0.5 + steps, -steps)
+        clear = pile.clearance(np.stack([x.ravel(), y.ravel(), np.full(x.size, 0.3)], axis=1), 1.0).reshape(64, 64)
+        dark = section.rgb[..., 0] == 70
+        self.assertGreater((clear == 0).mean(), 0.02)
+        self.assertGreater((dark == (clear == 0)).mean(), 0.985)  # but where pieces overlap within one pixel
+
+    def test_body_goal_and_way_stand_where_they_are(self):
+        env = CrawlerNav(**Crawler.OPTIONS, render_mode="rgb_array")
+        self.assertEqual(env.metadata["render_fps"], 10)
+        env.reset(seed=1)
+        for _ in range(5):
+            env.step([1, 0, 0, 0])
+        picture = env.render()
+        self.assertEqual((picture.shape, picture.dtype), ((512, 512, 3), np.uint8))
+        half = np.max(np.abs([*env._places, env._goal])) + 1
+        for place, colour in ((env._places[-1], (214, 72, 40)), (env._goal, (30, 150, 70))):
+            rows, columns = np.nonzero(np.all(picture == colour, axis=2))
+            self.assertAlmostEqual((columns.mean() + 0.5) / 256 * half - half, place[0], delta=0.1)
+            self.assertAlmostEqual(half - (rows.mean() + 0.5) / 256 * half, place[1], delta=0.1)
+
+    def test_what_the_camera_sees_stands_beside_the_section(self):
+        env = VoidExplore(**SMALL, render_mode="rgb_array")
+        observation, _ = env.reset(seed=1)
+        picture = env.render()
+        self.assertEqual(picture.shape, (256, 512, 3))
+        np.testing.assert_array_equal(picture[::16, 256::16, 1], observation["depth"][..., 0])
 
 
 if __name__ == "__main__":

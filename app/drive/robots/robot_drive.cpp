@@ -6,6 +6,7 @@
 
 #include "app/control/robot_control.h"
 #include "kernel/base/error.h"
+#include "kernel/world/world_robots.h"
 
 namespace rubble {
 namespace {
@@ -79,7 +80,7 @@ void RobotDrive::restart() {
 }
 
 void RobotDrive::follow(const JointTrajectoryCommand& trajectory) {
-  courses_.begin(trajectory, session_->robots()[driven_].model, session_->world().robot_state(int(driven_)),
+  courses_.begin(trajectory, session_->robots()[driven_].model, session_->world().robots().state(int(driven_)),
                  double(session_->steps()) * session_->step_time());
 }
 

@@ -151,7 +151,7 @@ def main():
     with open(args.mission) as file:
         mission = file.read()
     explorers = [Explorer(VoidExplore(mission=mission, pile_seeds=args.piles[k::ENVIRONMENTS], size=COLUMNS,
-                                      max_range=FAR, max_steps=1500), args.seed * 1_000_000 + k)
+                                      max_range=FAR, max_steps=1500, metres=True), args.seed * 1_000_000 + k)
                  for k in range(min(ENVIRONMENTS, len(args.piles)))]
     net = Net()
     optimizer = torch.optim.Adam(net.parameters(), lr=RATE, eps=1e-5)

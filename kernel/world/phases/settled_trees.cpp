@@ -1,58 +1,11 @@
 // Joints of a settled pile, found again from the plain state.
-#include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
+#include "kernel/model/settled_joints.h"
 #include "kernel/multibody/joints/joint.h"
 #include "kernel/world/phases/trees.h"
 
 namespace rubble {
 namespace {
-
-// Where each assembly of the pile has its pieces.
-struct Instance {
-  const AssemblyType* assembly = nullptr;
-  int first = 0;
-  double scale = 1;
-};
-
-[[noreturn]] void refuse_joints(const std::string& what) {
-  Diagnostic d;
-  d.message = "the settled pile is not of this mission: " + what;
-  d.hint = "settle it again";
-  throw InputError(d);
-}
-
-// pieces: how many the pile has, with those of the building, which come after the placed ones.
-std::vector<Instance> list_instances(const Pile& pile, const BuildingState& building, int& pieces) {
-  std::vector<Instance> instances;
-  pieces = 0;
-  const auto add = [&](const std::vector<Placement>& placements) {
-    for (const Placement& p : placements) {
-      if (p.type < int(pile.types.size())) {
-        ++pieces;
-        continue;
-      }
-      const AssemblyType& assembly = pile.assemblies[std::size_t(p.type) - pile.types.size()];
-      instances.push_back({&assembly, pieces, p.scale});
-      pieces += int(assembly.links.size());
-    }
-  };
-  add(pile.placed);
-  if (building.count > 0 && building.first != pieces) refuse_joints("another building");
-  pieces += building.count;
-  for (const Layer& layer : pile.layers) add(layer.pieces);
-  return instances;
-}
-
-const JointType* find_type(const std::vector<Instance>& instances, const JointState& joint, double& scale) {
-  for (const Instance& at : instances) {
-    if (joint.parent < at.first || joint.parent >= at.first + int(at.assembly->links.size())) continue;
-    scale = at.scale;
-    for (const JointType& type : at.assembly->joints) {
-      if (type.parent == joint.parent - at.first && type.child == joint.child - at.first) return &type;
-    }
-  }
-  return nullptr;
-}
 
 // The joint's coordinates that put the link where it is.
 void set_coordinates(const Pose& moved, Mobility mobility, double* q) {
@@ -77,22 +30,17 @@ void set_coordinates(const Pose& moved, Mobility mobility, double* q) {
 }  // namespace
 
 void WorldTrees::join_settled(const Pile& pile, const PileState& state) {
-  int pieces = 0;
-  const std::vector<Instance> instances = list_instances(pile, state.building, pieces);
-  if (pieces != int(state.pieces.size())) {
-    refuse_joints("it has " + std::to_string(state.pieces.size()) + " pieces, the mission " + std::to_string(pieces));
-  }
-  std::vector<const JointState*> hangs_by(state.pieces.size(), nullptr);
+  const std::vector<SettledJoint> settled = list_settled_joints(pile, state);
+  const int pieces = int(state.pieces.size());
+  std::vector<const SettledJoint*> hangs_by(state.pieces.size(), nullptr);
   std::vector<std::uint8_t> joined(state.pieces.size(), 0);
-  std::vector<const JointState*> loops;
-  for (const JointState& joint : state.joints) {
-    joined[std::size_t(joint.parent)] = joined[std::size_t(joint.child)] = 1;
-    const JointState*& tree_joint = hangs_by[std::size_t(joint.child)];
-    if (!tree_joint && joint.parent < joint.child) {
-      tree_joint = &joint;
-    } else {
+  std::vector<const SettledJoint*> loops;
+  for (const SettledJoint& joint : settled) {
+    joined[std::size_t(joint.state->parent)] = joined[std::size_t(joint.state->child)] = 1;
+    if (joint.loop)
       loops.push_back(&joint);
-    }
+    else
+      hangs_by[std::size_t(joint.state->child)] = &joint;
   }
   const auto frame = [&](int body, const Pose& type_from_joint) {
     return Pose{{}, -data_.bodies[body].com_in_type} * type_from_joint;
@@ -104,8 +52,9 @@ void WorldTrees::join_settled(const Pile& pile, const PileState& state) {
     Body& body = data_.bodies[i];
     TreeLink link;
     link.body = i;
-    const JointState* joint = hangs_by[std::size_t(i)];
-    if (!joint) {
+    const SettledJoint* const hangs = hangs_by[std::size_t(i)];
+    const JointState* const joint = hangs ? hangs->state : nullptr;
+    if (!hangs) {
       link.mobility = body.mass > 0 ? Mobility::free : Mobility::fixed;
       trees.emplace_back();
       states.emplace_back();
@@ -113,15 +62,13 @@ void WorldTrees::join_settled(const Pile& pile, const PileState& state) {
       body.tree = std::int32_t(trees.size()) - 1;
     } else {
       const Body& parent = data_.bodies[joint->parent];
-      double scale = 1;
-      const JointType* type = find_type(instances, *joint, scale);
-      if (!type || parent.tree < 0) refuse_joints("other joints");
+      if (!hangs->type || parent.tree < 0) refuse_joints("other joints");
       body.tree = parent.tree;
       link.parent = parent.link;
       link.mobility = mobility_of(joint->kind);
       link.parent_from_joint = frame(joint->parent, joint->parent_from_joint);
       link.link_from_joint = frame(i, joint->child_from_joint);
-      joint_of(link.mobility).set_figures(*type, scale, link);
+      joint_of(link.mobility).set_figures(*hangs->type, hangs->scale, link);
       link.rest = joint->rest;
       link.rest_rotation = joint->rest_rotation;
     }
@@ -146,9 +93,10 @@ void WorldTrees::join_settled(const Pile& pile, const PileState& state) {
                       link.mobility, q);
     }
   }
-  for (const JointState* joint : loops) {
-    double scale = 1;
-    const JointType* type = find_type(instances, *joint, scale);
+  for (const SettledJoint* settled_loop : loops) {
+    const JointState* const joint = settled_loop->state;
+    const JointType* const type = settled_loop->type;
+    const double scale = settled_loop->scale;
     const Body &a = data_.bodies[joint->parent], &b = data_.bodies[joint->child];
     if (!type || a.tree < 0 || a.tree != b.tree) refuse_joints("other joints");
     TreeLoop loop;

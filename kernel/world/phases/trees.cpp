@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/multibody/joints/joint.h"
+#include "kernel/multibody/link_motions.h"
 
 namespace rubble {
 namespace {
@@ -252,6 +253,45 @@ void WorldTrees::set_motion(int index, const Vec3& linear, const Vec3& angular) 
   }
   simbody_.set_state(tree, state);
   mirror_state(tree);
+}
+
+void WorldTrees::apply_impulse(int index, const Vec3& point, const Vec3& impulse) {
+  const Body& body = data_.bodies[index];
+  const Tree& tree = data_.trees[body.tree];
+  SimbodyTree& simbody = simbody_.at(body.tree);
+  const TreePose& pose = simbody.pose();
+  ArticulatedInertia inertia;
+  inertia.factor(tree, pose, std::vector<double>(tree.links.size()));
+  TreeState state = simbody.state();
+  std::vector<Spatial> motions;
+  calc_motions(tree, pose, state.u, motions);
+  LinkMotions changed;
+  changed.begin(inertia, motions);
+  changed.focus_on(body.link);
+  changed.apply(force_at(point - pose.reference, impulse));
+  changed.settle();
+  for (std::size_t i = 0; i < motions.size(); ++i) motions[i] = changed.motion(std::int32_t(i));
+  calc_speeds(tree, pose, motions, state.u);
+  simbody.set_state(state);
+  mirror_state(body.tree);
+}
+
+Mat3 WorldTrees::impulse_response(int index, const Vec3& point) const {
+  const Body& body = data_.bodies[index];
+  const Tree& tree = data_.trees[body.tree];
+  const TreePose& pose = simbody_.at(body.tree).pose();
+  ArticulatedInertia inertia;
+  inertia.factor(tree, pose, std::vector<double>(tree.links.size()));
+  const Vec3 arm = point - pose.reference;
+  Mat3 response;
+  for (int k = 0; k < 3; ++k) {
+    Vec3 unit;
+    unit[k] = 1;
+    const Spatial change = inertia.response(body.link) * force_at(arm, unit);
+    const Vec3 gained = change.linear() + cross(change.angular(), arm);
+    for (int row = 0; row < 3; ++row) response.rows[row][k] = gained[row];
+  }
+  return response;
 }
 
 void WorldTrees::set_pose(int index, const Pose& world_from_com) {

@@ -51,6 +51,9 @@ class WorldTrees {
   std::vector<std::int32_t> dissolve(int tree);
   void set_motion(int body, const Vec3& linear, const Vec3& angular);
   void set_pose(int body, const Pose& world_from_com);
+  // See World::apply_impulse() and World::impulse_response().
+  void apply_impulse(int body, const Vec3& point, const Vec3& impulse);
+  Mat3 impulse_response(int body, const Vec3& point) const;
 
  private:
   bool is_awake(const Tree& tree) const;

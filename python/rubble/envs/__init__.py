@@ -2,8 +2,8 @@
 rubble/VoidExplore-v0, rubble/SnakeExplore-v0 and rubble/CrawlerNav-v0; without it the same classes work with the
 spaces of spaces.py.
 
-    import gymnasium, rubble.envs
-    env = gymnasium.make("rubble/VoidExplore-v0")
+    import gymnasium  # the wheel tells it of the environments; a build does when rubble.envs is imported
+    env = gymnasium.make("rubble/VoidExplore-v0", max_episode_steps=200, render_mode="rgb_array")
 or
     env = rubble.envs.VoidExplore()
 """
@@ -12,12 +12,10 @@ from .snake_explore import SnakeExplore
 from .void_explore import VoidExplore
 
 try:
-    from gymnasium.envs.registration import register as _register
-except ImportError:
+    import rubble_gymnasium as _names
+
+    _names.register()
+except ImportError:  # no gymnasium
     pass
-else:
-    _register(id="rubble/VoidExplore-v0", entry_point="rubble.envs:VoidExplore")
-    _register(id="rubble/SnakeExplore-v0", entry_point="rubble.envs:SnakeExplore")
-    _register(id="rubble/CrawlerNav-v0", entry_point="rubble.envs:CrawlerNav")
 
 __all__ = ["CrawlerNav", "SnakeExplore", "VoidExplore"]

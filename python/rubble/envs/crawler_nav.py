@@ -22,7 +22,7 @@ Reward:
 
 End:
   terminated  within `reach` of the goal; or the base lies on its back or side; or the crawler has left the world
-  truncated  after `max_steps` steps
+  truncated  after `max_steps` steps; with gymnasium.make(), after max_episode_steps
 
 Info:
   pile_seed  seed of the pile, from reset()
@@ -34,7 +34,7 @@ Arguments:
   speed  largest forward velocity; m/s
   turn_rate  largest turn rate; rad/s
   period  duration of a step; s
-  max_steps  longest episode, in steps
+  max_steps  longest episode, in steps; None: no limit
   reach  distance at which the goal is reached; m
   around  distance of start and goal from the circle around the pile; m
   rays  number of rays of the scan
@@ -45,9 +45,10 @@ import numpy as np
 
 from .. import _core, geometry
 from ..robots import RobotWorld
+from .pictures import Section
 from .settled import settle_text
 from .spaces import Box, Dict, Env
-from .void_world import checked_action
+from .void_world import checked_action, is_over
 
 MISSION = """
 return rubble.mission {
@@ -59,11 +60,11 @@ _MOST = 50.0                       # of a component of the observation that has 
 
 
 class CrawlerNav(Env):
-    metadata = {"render_modes": []}
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 10}
 
     def __init__(self, mission=MISSION, pile_seeds=range(1, 4), speed=0.6, turn_rate=1.5, period=0.1, max_steps=600,
                  reach=0.3, around=1.5, rays=64, max_range=8.0, threads=1, render_mode=None):
-        self.render_mode = render_mode
+        self.render_mode, self.metadata = render_mode, {**self.metadata, "render_fps": 1 / period}
         self._mission, self._seeds, self._threads = mission, [int(s) for s in pile_seeds], threads
         self._speed, self._turn_rate, self._period = speed, turn_rate, period
         self._max_steps, self._reach, self._around = max_steps, reach, around
@@ -103,7 +104,7 @@ class CrawlerNav(Env):
         base = geometry.pose([start_x, start_y, 0.005], (0, 0, start + np.pi))
         self._robot = RobotWorld(self._pile, "crawler", base, fixed_debris=True, threads=self._threads)
         self._state, self._steps = self._robot.state(), 0
-        self._distance = self._to_goal()[0]
+        self._distance, self._places = self._to_goal()[0], [self._state["links"][0][:3]]
         return self._observe(), {"pile_seed": pile_seed, "goal_reached": False}
 
     def step(self, action):
@@ -113,12 +114,21 @@ class CrawlerNav(Env):
         self._robot.drive(forwards * self._speed, turning * self._turn_rate, 1.2 * np.array([front, front, rear, rear]))
         self._state = self._robot.step(self._period)
         self._steps += 1
+        self._places.append(self._state["links"][0][:3])
         before, self._distance = self._distance, self._to_goal()[0]
         reached = bool(self._distance < self._reach)
         fallen = bool(self._tilt()[2] < 0.1 or self._state["lost"])
         reward = before - self._distance - 0.01 + 10.0 * reached
-        truncated = self._steps >= self._max_steps
-        return self._observe(), float(reward), reached or fallen, truncated, {"goal_reached": reached}
+        return self._observe(), float(reward), reached or fallen, is_over(self._steps, self._max_steps), {"goal_reached": reached}
+
+    def render(self):
+        """The section at the height of the scan with the way and the goal, as wide as start and goal need."""
+        if self.render_mode is None or self._robot is None:
+            return None
+        half = float(np.max(np.abs([*self._places, self._goal]))) + 1
+        section = Section(self._pile, (0, 0, self._places[-1][2] + _EYE[2]), half, 512)
+        section.draw_way(self._places, goal=self._goal, radius=0.2)
+        return section.rgb
 
     def _base(self):
         return geometry.matrix(self._state["links"][0])

@@ -6,7 +6,7 @@ Action:
   0 to 14  target angles of the joints, from head to tail, in units of 1.2 rad
 
 Observation:
-  depth  depth along the optical axis; `max_range` without a surface; m
+  depth  picture of the depths along the optical axis: 255 is `max_range` or more. With `metres`, without the channel; m
   head  forward, left and up since the start, in the frame of the start (m); vertical components of the X and Z axes of the head; cosine and sine of its heading since the start
   joints  joint angles; rad
   speeds  joint speeds; rad/s
@@ -20,7 +20,7 @@ Reward:
 
 End:
   terminated  the share `enough` of the void has been seen, or the snake has left the world
-  truncated  after `max_steps` steps
+  truncated  after `max_steps` steps; with gymnasium.make(), after max_episode_steps
 
 Info:
   pile_seed  seed of the pile, from reset()
@@ -35,9 +35,10 @@ Arguments:
   fov_deg  field of view; degree
   max_range  range of the depth camera; m
   period  duration of a step; s
-  max_steps  longest episode, in steps
+  max_steps  longest episode, in steps; None: no limit
   enough  share of the void at which the episode ends
   voxel  edge of the cells of the void; m
+  metres  gives `depth` in metres
   threads  number of threads; results do not depend on it
 """
 import math
@@ -46,9 +47,10 @@ import numpy as np
 
 from .. import _core, geometry
 from ..robots import RobotWorld
+from .pictures import depth_space
 from .spaces import Box, Dict, Env
 from .void_explore import MISSION
-from .void_world import VoidWorld, VoidWorlds, checked_action
+from .void_world import VoidWorld, VoidWorlds, checked_action, is_over
 
 _JOINTS = 15
 _LENGTH = 0.95  # of the snake; m
@@ -57,20 +59,21 @@ _MOST = 1000.0  # of a component of the observation that has no limit of its own
 
 
 class SnakeExplore(Env):
-    metadata = {"render_modes": []}
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 10}
 
-    def __init__(self, mission=MISSION, pile_seeds=range(1, 6), radius=0.12, size=16, fov_deg=90.0, max_range=4.0,
-                 period=0.1, max_steps=600, enough=0.95, voxel=0.1, threads=1, render_mode=None):
-        self.render_mode = render_mode
+    def __init__(self, mission=MISSION, pile_seeds=range(1, 6), radius=0.12, size=36, fov_deg=90.0, max_range=4.0,
+                 period=0.1, max_steps=600, enough=0.95, voxel=0.1, metres=False, threads=1,
+                 render_mode=None):
+        self.render_mode, self.metadata = render_mode, {**self.metadata, "render_fps": 1 / period}
         self._radius, self._period, self._max_steps, self._enough = radius, period, max_steps, enough
         self._threads, self._robot = threads, None
         self._worlds = VoidWorlds(pile_seeds, lambda seed: VoidWorld(mission, seed, radius, voxel, size, fov_deg,
-                                                                     max_range, False, threads))
+                                                                     max_range, False, threads, metres))
         self.action_space = Box(-1.0, 1.0, (_JOINTS,), np.float32, unit="of 1.2 rad, by joint from head to tail")
         head = [(way, "m") for way in ("forwards", "left", "up")] + [
             (name, "") for name in ("X axis upwards", "Z axis upwards", "cosine of heading", "sine of heading")]
         self.observation_space = Dict({
-            "depth": Box(0.0, max_range, (size, size), np.float32, unit="m"),
+            "depth": depth_space(size, max_range, metres),
             "head": Box(-_MOST, _MOST, (7,), np.float32, parts=head),
             "joints": Box(-_MOST, _MOST, (_JOINTS,), np.float32, unit="rad"),
             "speeds": Box(-_MOST, _MOST, (_JOINTS,), np.float32, unit="rad/s"),
@@ -101,7 +104,7 @@ class SnakeExplore(Env):
         self._start = self._find_start()
         self._robot = RobotWorld(self._world.pile, "snake", self._start, fixed_debris=True, threads=self._threads)
         self._state, self._steps, self._entered = self._robot.state(), 0, False
-        self._distance = self._to_entrance()
+        self._distance, self._places = self._to_entrance(), [self._state["links"][0][:3]]
         return self._observe(), {"pile_seed": pile_seed, "coverage": 0.0, "entered": False}
 
     def step(self, action):
@@ -110,6 +113,7 @@ class SnakeExplore(Env):
         self._robot.set_joints(1.2 * checked_action(action, _JOINTS))
         self._state = self._robot.step(self._period)
         self._steps += 1
+        self._places.append(self._state["links"][0][:3])
         view = self._world.view
         before, was = view.seen, self._distance
         observation = self._observe()
@@ -117,8 +121,12 @@ class SnakeExplore(Env):
         reward = 100.0 * (view.seen - before) / view.count - 0.01 + (0 if self._entered else was - self._distance)
         self._entered = self._entered or self._distance < 0.3
         terminated = bool(view.seen >= self._enough * view.count or self._state["lost"])
-        return observation, float(reward), terminated, self._steps >= self._max_steps, {
+        return observation, float(reward), terminated, is_over(self._steps, self._max_steps), {
             "coverage": view.seen / view.count, "entered": self._entered}
+
+    def render(self):
+        if self.render_mode is not None and self._robot is not None:
+            return self._world.draw(self._state["links"][0], self._seen, self._places)
 
     def _to_entrance(self):
         return float(_core._lengths((self._state["links"][0][:3] - self._world.entrance)[None])[0])
@@ -126,7 +134,7 @@ class SnakeExplore(Env):
     def _observe(self):
         state = self._state
         head = state["links"][0]
-        depth, _, _ = self._world.look(head)
+        self._seen = depth = self._world.look(head)[0]
         now = geometry.matrix(head)
         moved, turned = geometry.rotate(self._start, [head[:3] - self._start[:3], now[:3, 0]], back=True)
         flat = max(math.sqrt(turned[0] * turned[0] + turned[1] * turned[1]), 1e-9)

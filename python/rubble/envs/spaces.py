@@ -93,7 +93,8 @@ class Box(_Box):
     """parts: the name and the unit of each element, for a space with names; unit: of all elements, for one without."""
 
     def __init__(self, low, high, shape, dtype=np.float32, unit="", parts=()):
-        super().__init__(low, high, shape, dtype)
+        low, high = (np.broadcast_to(np.asarray(limit, dtype), shape).copy() for limit in (low, high))
+        super().__init__(low, high, tuple(shape), dtype)
         self.unit, self.parts = unit, tuple(parts)
 
     def __repr__(self):

@@ -10,7 +10,7 @@ Action:
 
 Observation:
   clearance  distance from the centre of the ball to the nearest surface; m
-  depth  depth along the optical axis; `max_range` without a surface; m
+  depth  picture of the depths along the optical axis: 255 is `max_range` or more. With `metres`, without the channel; m
   pose  forward, left and up since the start, in the frame of the start (m); yaw (rad)
   rgb  colour image, only with `colour`; needs EGL
 
@@ -21,7 +21,7 @@ Reward:
 
 End:
   terminated  the share `enough` of the void has been seen
-  truncated  after `max_steps` steps
+  truncated  after `max_steps` steps; with gymnasium.make(), after max_episode_steps
 
 Info:
   pile_seed  seed of the pile, from reset()
@@ -38,17 +38,19 @@ Arguments:
   speed  largest velocity along each axis; m/s
   turn_rate  largest turn rate; rad/s
   period  duration of a step; s
-  max_steps  longest episode, in steps
+  max_steps  longest episode, in steps; None: no limit
   enough  share of the void at which the episode ends
   voxel  edge of the cells of the void; m
+  metres  gives `depth` in metres
   colour  adds `rgb`; the light of each pile is baked at its first use
   threads  number of threads; results do not depend on it
 """
 import numpy as np
 
 from .. import _core, geometry
+from .pictures import depth_space
 from .spaces import Box, Dict, Env
-from .void_world import VoidWorld, VoidWorlds, checked_action
+from .void_world import VoidWorld, VoidWorlds, checked_action, is_over
 
 MISSION = """
 return rubble.mission {
@@ -58,21 +60,21 @@ return rubble.mission {
 
 
 class VoidExplore(Env):
-    metadata = {"render_modes": []}
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 5}
 
     def __init__(self, mission=MISSION, pile_seeds=range(1, 6), radius=0.15, size=64, fov_deg=90.0, max_range=5.0,
-                 speed=0.5, turn_rate=1.0, period=0.2, max_steps=500, enough=0.95, voxel=0.1, colour=False, threads=1,
-                 render_mode=None):
-        self.render_mode = render_mode
+                 speed=0.5, turn_rate=1.0, period=0.2, max_steps=500, enough=0.95, voxel=0.1, metres=False, colour=False,
+                 threads=1, render_mode=None):
+        self.render_mode, self.metadata = render_mode, {**self.metadata, "render_fps": 1 / period}
         self._radius, self._speed, self._turn_rate, self._period = radius, speed, turn_rate, period
         self._max_steps, self._enough = max_steps, enough
         self._worlds = VoidWorlds(pile_seeds, lambda seed: VoidWorld(mission, seed, radius, voxel, size, fov_deg,
-                                                                     max_range, colour, threads))
+                                                                     max_range, colour, threads, metres))
         self._world = None
         self.action_space = Box(-1.0, 1.0, (4,), np.float32, parts=[
             (way, f"of {speed:g} m/s") for way in ("forwards", "left", "up")] + [("turning to the left", f"of {turn_rate:g} rad/s")])
         spaces = {"clearance": Box(0.0, max_range, (1,), np.float32, unit="m"),
-                  "depth": Box(0.0, max_range, (size, size), np.float32, unit="m"),
+                  "depth": depth_space(size, max_range, metres),
                   "pose": Box(-1000.0, 1000.0, (4,), np.float32,
                               parts=[("forwards", "m"), ("left", "m"), ("up", "m"), ("yaw", "rad")])}
         if colour:
@@ -85,6 +87,7 @@ class VoidExplore(Env):
         self._world.view.forget()
         self._position, self._yaw = self._world.entrance.copy(), 0.0
         self._steps = self._stopped = 0
+        self._places = [self._position.copy()]
         observation = self._observe()
         return observation, self._describe(pile_seed=pile_seed)
 
@@ -96,13 +99,14 @@ class VoidExplore(Env):
         self._yaw += float(action[3]) * self._turn_rate * self._period
         way = self._turned(action[:3] * (self._speed * self._period), self._world.yaw + self._yaw)
         self._position, free = view.move(self._position, way)
+        self._places.append(self._position.copy())
         self._steps += 1
         self._stopped += not free
         before = view.seen
         observation = self._observe()
         reward = 100.0 * (view.seen - before) / view.count - 0.01 - 0.1 * (not free)
         terminated = view.seen >= self._enough * view.count
-        return observation, float(reward), terminated, self._steps >= self._max_steps, self._describe()
+        return observation, float(reward), terminated, is_over(self._steps, self._max_steps), self._describe()
 
     @staticmethod
     def _turned(vector, yaw):
@@ -119,7 +123,12 @@ class VoidExplore(Env):
                        "pose": np.append(moved, self._yaw).astype(np.float32)}
         if rgb is not None:
             observation["rgb"] = rgb
+        self._seen = depth if rgb is None else rgb
         return observation
+
+    def render(self):
+        if self.render_mode is not None and self._world is not None:
+            return self._world.draw(self._body(), self._seen, self._places)
 
     def _describe(self, **more):
         return {"coverage": self._world.view.seen / self._world.view.count, "stops": self._stopped, **more}

@@ -1,4 +1,4 @@
-// Robots in the world: trees with motors and belts. Not for use outside kernel/.
+// Robots as trees with motors and belts. Not for use outside kernel/.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace rubble {
 
-class WorldRobots {
+class RobotTrees {
  public:
-  WorldRobots(WorldTypes& types, WorldData& data, const WorldSettings& settings, Pairs& pairs, Waking& waking,
+  RobotTrees(WorldTypes& types, WorldData& data, const WorldSettings& settings, Pairs& pairs, Waking& waking,
               WorldTrees& trees, Tubes& tubes, const SimbodyTrees& simbody)
       : types_(types),
         data_(data),
@@ -20,7 +20,7 @@ class WorldRobots {
         tubes_(tubes),
         simbody_(simbody) {}
 
-  // As the functions of World with these names.
+  // As the functions of World::Robots with these names.
   int add(const RobotModel& model, const Pose& world_from_base);
   void set_command(int robot, const RobotCommand& command);
   RobotState state(int robot) const;

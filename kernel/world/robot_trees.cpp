@@ -1,4 +1,4 @@
-#include "kernel/world/robots.h"
+#include "kernel/world/robot_trees.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +46,7 @@ void set_motor(const RobotJoint& joint, const MotorCommand& command, TreeMotor& 
 
 }  // namespace
 
-int WorldRobots::add(const RobotModel& model, const Pose& world_from_base) {
+int RobotTrees::add(const RobotModel& model, const Pose& world_from_base) {
   const std::string key = "robots[" + std::to_string(types_.robots.size() + 1) + "]";
   validate(model, key);
   const int first_type = int(types_.pieces.size()), first = int(data_.bodies.size());
@@ -82,7 +82,7 @@ int WorldRobots::add(const RobotModel& model, const Pose& world_from_base) {
   return int(data_.robots.size()) - 1;
 }
 
-void WorldRobots::set_command(int number, const RobotCommand& command) {
+void RobotTrees::set_command(int number, const RobotCommand& command) {
   const RobotModel& model = types_.robots[std::size_t(number)];
   WorldRobot& robot = data_.robots[std::size_t(number)];
   std::vector<TreeLink>& links = data_.trees[robot.tree].links;
@@ -114,7 +114,7 @@ void WorldRobots::set_command(int number, const RobotCommand& command) {
 }
 
 // What sleeps against an immovable base would not be found to overlap it.
-void WorldRobots::wake_neighbours(std::int32_t body) {
+void RobotTrees::wake_neighbours(std::int32_t body) {
   for (const Pair& pair : data_.pairs) {
     if (pair.body_a == body && pair.body_b != kGround) waking_.wake(pair.body_b);
     if (pair.body_b == body) waking_.wake(pair.body_a);
@@ -122,18 +122,18 @@ void WorldRobots::wake_neighbours(std::int32_t body) {
 }
 
 // Of a link of the model; none: it has not grown.
-const TreeLink* WorldRobots::find_link(const WorldRobot& robot, int link) const {
+const TreeLink* RobotTrees::find_link(const WorldRobot& robot, int link) const {
   const Body& body = data_.bodies[std::size_t(robot.first_body + link)];
   if (body.tree < 0) return nullptr;
   return &data_.trees[body.tree].links[std::size_t(body.link)];
 }
 
-bool WorldRobots::is_of_robot(const Contact& contact, const WorldRobot& robot) const {
+bool RobotTrees::is_of_robot(const Contact& contact, const WorldRobot& robot) const {
   if (data_.bodies[contact.body_a].tree == robot.tree) return true;
   return contact.body_b != kGround && data_.bodies[contact.body_b].tree == robot.tree;
 }
 
-RobotState WorldRobots::state(int number) const {
+RobotState RobotTrees::state(int number) const {
   const WorldRobot& robot = data_.robots[std::size_t(number)];
   const RobotModel& model = types_.robots[std::size_t(number)];
   const TreeState state = simbody_.state(robot.tree);
@@ -176,7 +176,7 @@ RobotState WorldRobots::state(int number) const {
   return result;
 }
 
-std::vector<RobotContact> WorldRobots::contacts(int number) const {
+std::vector<RobotContact> RobotTrees::contacts(int number) const {
   const WorldRobot& robot = data_.robots[std::size_t(number)];
   std::vector<RobotContact> result;
   for (std::size_t i = 0; i < data_.pairs.size(); ++i) {

@@ -1,14 +1,14 @@
-#include "app/drive/overlay.h"
+#include "app/drive/overlay/overlay.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/world/world_robots.h"
 #include "render/camera/lens.h"
 
 namespace rubble {
 namespace {
 
-constexpr double kHullReach = 4;      // about the camera; unit: m
 constexpr int kMostHulls = 150;       // pieces, the nearest
 constexpr double kForceLength = 1e-3, kLeastForceLength = 0.02;  // unit: m/N, m
 constexpr double kAxis = 0.1, kCross = 0.02;                     // unit: m
@@ -17,7 +17,8 @@ constexpr double kDashLength = 0.05;  // lines are hidden piece by piece; unit: 
 constexpr int kMostDashes = 64;
 constexpr double kSurface = 0.02;     // a line that lies on a surface is seen; unit: m
 
-constexpr std::array<std::uint8_t, 3> kHullColour{90, 220, 255}, kContactColour{255, 70, 60};
+constexpr double kPileForceLength = 1e-4, kMostForceLength = 0.6;  // unit: m/N, m
+constexpr std::size_t kMostContacts = 1500;
 
 // Planar depth at a pixel; infinite where nothing is.
 double depth_at(const Frame& frame, const PixelPoint& at) {
@@ -36,14 +37,15 @@ const Shape& Overlay::shape_of(int type) {
   return shapes_.emplace(type, compile_shape(of, of.name)).first->second;
 }
 
-void Overlay::add_hulls(const PileState& pile, const World* world, const Vec3& eye, std::vector<OverlayLine>& lines) {
+void Overlay::add_hulls(const PileState& pile, const World* world, const Vec3& eye, std::vector<OverlayLine>& lines,
+                        double reach) {
   std::vector<std::pair<double, PieceState>> near;
   for (std::size_t i = 0; i < pile.pieces.size(); ++i) {
     PieceState piece = pile.pieces[i];
     if (world) piece.world_from_body = world->piece(int(i)).world_from_body;
     if (piece.status == PieceStatus::lost) continue;
     const double away = distance(piece.world_from_body.translation, eye);
-    if (away < kHullReach) near.push_back({away, piece});
+    if (away < reach) near.push_back({away, piece});
   }
   std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   if (near.size() > std::size_t(kMostHulls)) near.resize(kMostHulls);
@@ -61,16 +63,35 @@ void Overlay::add_hulls(const PileState& pile, const World* world, const Vec3& e
 }
 
 void Overlay::add_contacts(const World& world, std::vector<OverlayLine>& lines) {
-  for (int robot = 0; robot < world.robot_count(); ++robot)
-    for (const RobotContact& contact : world.robot_contacts(robot))
+  for (int robot = 0; robot < world.robots().count(); ++robot)
+    for (const RobotContact& contact : world.robots().contacts(robot))
       lines.push_back({contact.point,
                        contact.point + contact.normal * std::max(kLeastForceLength, kForceLength * contact.force),
                        kContactColour, true});
 }
 
+void Overlay::add_all_contacts(const World& world, double step, const Vec3& eye, std::vector<OverlayLine>& lines) {
+  std::vector<ContactImpulse> contacts = world.contacts();
+  if (contacts.size() > kMostContacts) {
+    std::stable_sort(contacts.begin(), contacts.end(), [&eye](const ContactImpulse& a, const ContactImpulse& b) {
+      return distance(a.point, eye) < distance(b.point, eye);
+    });
+    contacts.resize(kMostContacts);
+  }
+  for (const ContactImpulse& contact : contacts) {
+    const Vec3 force = contact.impulse * ((contact.impulse.z < 0 ? -1 : 1) / step);
+    const double newtons = norm(force);
+    if (!(newtons > 0)) continue;
+    const double length = std::clamp(kPileForceLength * newtons, kLeastForceLength, kMostForceLength);
+    lines.push_back({contact.point, contact.point + force * (length / newtons), kContactColour, true});
+    for (const Vec3& half : {Vec3{kCross / 2, 0, 0}, Vec3{0, kCross / 2, 0}})
+      lines.push_back({contact.point - half, contact.point + half, kContactColour, true});
+  }
+}
+
 void Overlay::add_frames(const World& world, std::vector<OverlayLine>& lines) {
-  for (int robot = 0; robot < world.robot_count(); ++robot)
-    for (const RobotState::Link& link : world.robot_state(robot).links)
+  for (int robot = 0; robot < world.robots().count(); ++robot)
+    for (const RobotState::Link& link : world.robots().state(robot).links)
       for (int axis = 0; axis < 3; ++axis) {
         Vec3 along;
         along[axis] = kAxis;

@@ -1,0 +1,13 @@
+# Copies HEADERS from the folder FROM to TO, whose name is the prefix of their includes there.
+get_filename_component(prefix ${TO} NAME)
+foreach(header IN LISTS HEADERS)
+  file(READ ${FROM}/${header} text)
+  string(REGEX REPLACE "#include \"(kernel|io)/" "#include \"${prefix}/\\1/" text "${text}")
+  set(old "")
+  if(EXISTS ${TO}/${header})
+    file(READ ${TO}/${header} old)
+  endif()
+  if(NOT text STREQUAL old)
+    file(WRITE ${TO}/${header} "${text}")
+  endif()
+endforeach()

@@ -1,0 +1,14 @@
+"""Tells gymnasium of Rubble's environments when it is imported, by the entry point `gymnasium.envs` of the wheel.
+
+Apart from the package, which loads Rubble's libraries: those who make other environments do not wait for them.
+"""
+STEPS = {"CrawlerNav": 600, "SnakeExplore": 600, "VoidExplore": 500}
+
+
+def register():
+    from gymnasium.envs.registration import register as add, registry
+
+    for name, steps in STEPS.items():
+        if f"rubble/{name}-v0" not in registry:
+            # gymnasium's own limit ends episodes, so that max_episode_steps of make() holds.
+            add(id=f"rubble/{name}-v0", entry_point=f"rubble.envs:{name}", max_episode_steps=steps, kwargs={"max_steps": None})

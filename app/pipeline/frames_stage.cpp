@@ -13,7 +13,6 @@
 #include "app/provenance/frame_journal.h"
 #include "app/scene/build_scene.h"
 #include "app/sensors/exact_depth.h"
-#include "app/sensors/reading_sensor.h"
 #include "app/sensors/sensor_suite.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
@@ -52,10 +51,17 @@ std::map<std::string, std::string> describe_environment(const GlInfo& info, int 
           {"threads", std::to_string(threads)}};
 }
 
-template <typename T>
-std::vector<std::string> names_of(const std::vector<T>& sensors) {
+std::vector<std::string> names_of_cameras(const Scenario& scenario) {
   std::vector<std::string> names;
-  for (const T& sensor : sensors) names.push_back(sensor.name);
+  for (const MountedCamera& camera : scenario.cameras)
+    if (camera.named) names.push_back(camera.name);
+  return names;
+}
+
+// Their channels among the hashes.
+std::vector<std::string> channels_of_sensors(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const SensorItem& sensor : scenario.sensors) names.push_back(sensor.name + (scans(sensor) ? "/points" : "/reading"));
   return names;
 }
 
@@ -110,8 +116,10 @@ Scene build_felt_scene(const ResolvedMission& mission, const Seen& seen) {
                           });
 }
 
-// What a function is told of colours is drawn while the robot is driven: the recorded pictures are lit in the same way.
-bool senses_colours(const Scenario& scenario) {
+// What a function is told of colours is drawn while the robot is driven, and so is what a person sees: the recorded pictures
+// are lit in the same way.
+bool is_lit_live(const Scenario& scenario) {
+  if (scenario.robot_run.live_light) return true;
   for (const MountedCamera& camera : scenario.cameras)
     if (is_sensed(scenario, colour_sense(camera.name))) return true;
   return false;
@@ -122,8 +130,8 @@ Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen
   const PileState& pile = seen.pile.state;
   const Scenario& scenario = mission.scenario;
   if (!seen.robots.moved.empty())
-    return senses_colours(scenario) ? build_felt_scene(mission, seen)
-                                    : build_robot_scene(scenario, mission.assets, pile, seen.robots.moved, scenario.start_ns);
+    return is_lit_live(scenario) ? build_felt_scene(mission, seen)
+                                 : build_robot_scene(scenario, mission.assets, pile, seen.robots.moved, scenario.start_ns);
   Scene scene = leg.window ? build_moving_scene(scenario, mission.assets, pile, seen.pile.track, *leg.window, leg.zero_ns)
                            : build_scene(scenario, mission.assets, pile);
   scene.start_ns = leg.flight.start_ns;
@@ -134,11 +142,11 @@ Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen
 std::vector<std::unique_ptr<ExactDepth>> make_told_depths(const ResolvedMission& mission, const Seen& seen, int threads) {
   const std::vector<MountedCamera>& cameras = mission.scenario.cameras;
   std::vector<std::unique_ptr<ExactDepth>> depths(cameras.size());
-  std::shared_ptr<LidarWorld> world;
+  std::shared_ptr<RayWorld> world;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     // Rows of a shutter are drawn each at its own time.
     if (!is_sensed(mission.scenario, cameras[i].name) || cameras[i].camera.shutter.readout > 0) continue;
-    if (!world) world = std::make_shared<LidarWorld>(build_felt_scene(mission, seen));
+    if (!world) world = std::make_shared<RayWorld>(build_felt_scene(mission, seen));
     depths[i] = std::make_unique<ExactDepth>(cameras[i], world, threads);
   }
   return depths;
@@ -156,7 +164,7 @@ PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Se
       [&](double fraction) { taking.report(fraction, folder, context); });
   const bool felt = !leg.window && !seen.robots.moved.empty();
   std::optional<Scene> felt_scene;
-  if (felt && (!mission.scenario.lidars.empty() || needs_rays(mission.scenario.sensors))) felt_scene = build_felt_scene(mission, seen);
+  if (felt && casts_rays(mission.scenario.sensors)) felt_scene = build_felt_scene(mission, seen);
   prepared.sensors = std::make_unique<SensorSuite>(
       mission.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before}, felt_scene ? *felt_scene : scene,
       *prepared.renderer, context.threads(), seen.robots.readings);
@@ -183,9 +191,7 @@ void take_samples(PreparedLeg& prepared, const Scenario& scenario, const Leg& le
       recorded.hashes.add_robot(*robot);
     } else if (const auto* values = std::get_if<Reading>(&*sample)) {
       recorded.hashes.add_reading(*values);
-    } else if (const auto* scan = std::get_if<LidarScan>(&*sample)) {
-      recorded.hashes.add_lidar(*scan);
-      throw_if_stopped(folder.path());
+      if (values->scan) throw_if_stopped(folder.path());
     } else {
       Frame& frame = std::get<Frame>(*sample);
       if (!prepared.depths.empty() && prepared.depths[std::size_t(frame.sensor)])
@@ -272,8 +278,7 @@ RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& 
                              RunFolder& folder, RunContext& context) {
   GlContext gl({context.options.gl_device, context.threads()});
   RecordedFrames recorded;
-  const Scenario& s = mission.scenario;
-  recorded.hashes = FrameHashes(s.names_cameras() ? names_of(s.cameras) : std::vector<std::string>(), names_of(s.lidars), names_of(s.sensors));
+  recorded.hashes = FrameHashes(names_of_cameras(mission.scenario), channels_of_sensors(mission.scenario));
   recorded.environment = describe_environment(gl.info(), context.threads());
   record(legs, mission, {pile, robots}, gl, folder, context, recorded);
   return recorded;

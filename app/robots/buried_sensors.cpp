@@ -46,7 +46,6 @@ class Finder {
 std::vector<std::string> find_buried_sensors(const Scenario& scenario, const std::vector<MissionRobot>& robots) {
   Finder finder(scenario, robots);
   for (const MountedCamera& camera : scenario.cameras) finder.look(camera.key(), camera.ride, camera.rig_from_camera());
-  for (const LidarScenario& lidar : scenario.lidars) finder.look("lidars." + lidar.name, lidar.ride, lidar.rig_from_lidar());
   for (const SensorItem& sensor : scenario.sensors)
     if (sensor.figures->casts_rays()) finder.look(sensor.key(), sensor.ride, sensor.carrier_from_sensor());
   return finder.take();

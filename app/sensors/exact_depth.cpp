@@ -23,7 +23,7 @@ DepthRays make_rays(const MountedCamera& camera) {
 
 }  // namespace
 
-ExactDepth::ExactDepth(const MountedCamera& camera, std::shared_ptr<LidarWorld> world, int threads)
+ExactDepth::ExactDepth(const MountedCamera& camera, std::shared_ptr<RayWorld> world, int threads)
     : rays_(make_rays(camera)), world_(std::move(world)), pool_(threads) {}
 
 std::vector<float> ExactDepth::measure(std::int64_t stamp_ns, const Pose& world_from_camera) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kernel/base/parallel.h"
-#include "render/lidar/depth_rays.h"
+#include "render/rays/depth_rays.h"
 #include "scripting/scenario/scenario.h"
 
 namespace rubble {
@@ -14,7 +14,7 @@ namespace rubble {
 class ExactDepth {
  public:
   // Throws InputError for a lens that is no pinhole.
-  ExactDepth(const MountedCamera& camera, std::shared_ptr<LidarWorld> world, int threads);
+  ExactDepth(const MountedCamera& camera, std::shared_ptr<RayWorld> world, int threads);
 
   const Intrinsics& intrinsics() const { return rays_.intrinsics(); }
   // As Frame::depth, of everything where it is at that stamp.
@@ -22,7 +22,7 @@ class ExactDepth {
 
  private:
   DepthRays rays_;
-  std::shared_ptr<LidarWorld> world_;
+  std::shared_ptr<RayWorld> world_;
   ThreadPool pool_;
 };
 

@@ -7,7 +7,6 @@
 
 #include "kernel/base/portable_math.h"
 #include "render/streams/image_streams.h"
-#include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/optics_schema.h"
 #include "scripting/scenario/scenario_schema.h"
 #include "scripting/schema/schema_json.h"
@@ -201,7 +200,6 @@ void check_labels(const Scenario& scenario, SensorNames& names) {
       names.label(at, camera.name + "_ground_truth_depth");
   }
   for (const ImuScenario& imu : scenario.imus) names.label(imu.key(), imu.name);
-  for (const LidarScenario& lidar : scenario.lidars) names.label("lidars." + lidar.name, lidar.name);
   for (const SensorItem& sensor : scenario.sensors) names.label(sensor.key(), sensor.name);
   const std::vector<std::string> robots = robot_names(scenario.robots);
   for (std::size_t i = 0; i < robots.size(); ++i)
@@ -235,18 +233,12 @@ void check_all_names(const Scenario& scenario, SensorNames& names, std::vector<D
     if (!imu.named && !imu.frame_id && imu.is_rig()) continue;
     names.check(imu.frame_id ? at + ".frame_id" : at, imu.frame_id.value_or(imu.name + "_link"), false);
   }
-  for (std::size_t i = 0; i < scenario.lidars.size(); ++i) {
-    const LidarScenario& lidar = scenario.lidars[i];
-    const std::string at = "lidars." + lidar.name;
-    if (!check_name(lidar.name, at, "a LiDAR", mistakes)) continue;
-    names.check(lidar.topic ? at + ".topic" : at, lidar_topic(scenario, i), true);
-    names.check(lidar.frame_id ? at + ".frame_id" : at, lidar.frame_id.value_or(lidar.name + "_link"), false);
-  }
   for (const SensorItem& sensor : scenario.sensors) {
     if (!check_name(sensor.name, sensor.key(), "a sensor", mistakes)) continue;
-    names.check(sensor.topic ? sensor.key() + ".topic" : sensor.key(), sensor.ros_topic(), true);
+    const std::string topic = topic_of(scenario.sensors, sensor);
+    names.check(sensor.topic ? sensor.key() + ".topic" : sensor.key(), topic, true);
     names.check(sensor.frame_id ? sensor.key() + ".frame_id" : sensor.key(), sensor.frame(), false);
-    if (sensor.figures->topics().size() > 1) names.reserve_below(sensor.ros_topic(), sensor.key());
+    if (sensor.figures->topics().size() > 1) names.reserve_below(topic, sensor.key());
   }
 }
 

@@ -4,9 +4,9 @@
 
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
+#include "scripting/robots/robot_kind.h"
 #include "scripting/scenario/camera_mistakes.h"
 #include "scripting/scenario/pile_schema.h"
-#include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/scenario_schema.h"
 #include "scripting/scenario/sky_schema.h"
 #include "scripting/scenario/surroundings_schema.h"
@@ -113,10 +113,7 @@ void check_meshes(const OutputScenario& outputs, std::vector<Diagnostic>& mistak
 
 void check_rawlog(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   if (scenario.outputs.rawlog_format == RawlogFormat::observations) return;
-  const auto has_odometry = [](const RobotItem& robot) {
-    return robot.urdf.empty() ? robot.model == RobotKind::crawler || robot.model == RobotKind::rover
-                              : !robot.left_wheels.empty() || !robot.left_tracks.empty();
-  };
+  const auto has_odometry = [](const RobotItem& robot) { return kind_of(robot).has_sides(robot); };
   const auto count = std::count_if(scenario.robots.begin(), scenario.robots.end(), has_odometry);
   if (count == 1) return;
   mistakes.push_back({"", 0, "outputs.rawlog_format", "actions need one robot with odometry",
@@ -164,6 +161,17 @@ void check_smoothness(const Scenario& scenario, std::vector<Diagnostic>& mistake
   }
 }
 
+// Files of scans need a sensor that scans.
+void check_scans(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  const OutputScenario& outputs = scenario.outputs;
+  std::string kinds;
+  for (const SensorKind* kind : sensor_kinds())
+    if (kind->most_points() > 0) kinds += (kinds.empty() ? "`" : " or `") + kind->key() + "`";
+  for (const auto& [key, wanted] : {std::pair{"outputs.pcd", outputs.pcd}, {"outputs.kitti", outputs.kitti}})
+    if (wanted && std::none_of(scenario.sensors.begin(), scenario.sensors.end(), scans))
+      mistakes.push_back({"", 0, key, "there is nothing to write", "a mission with " + kinds, "none", ""});
+}
+
 }  // namespace
 
 std::vector<std::string> export_names() { return {"ply", "obj", "glb", "sdf", "mjcf", "usd", "urdf"}; }
@@ -182,8 +190,8 @@ std::vector<Diagnostic> find_mistakes(const MissionForm& form) {
   check_sky(scenario.lights.front(), mistakes);
   check_forms(form, mistakes);
   check_cameras(scenario, mistakes);
-  check_lidars(scenario, mistakes);
   check_sensors(scenario.sensors, mistakes);
+  check_scans(scenario, mistakes);
   // What a unit is called is wrong before it is switched on.
   copy.imu_on = form.imu_on || (form.rest.imus.empty() && (form.imu.topic || form.imu.frame_id));
   check_sensor_names(copy.normalized(), mistakes);

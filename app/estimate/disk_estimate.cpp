@@ -166,7 +166,7 @@ Estimate estimate_outputs(const Scenario& s, const AssetLibrary& assets) {
   const PileModelSize pile = size_of_pile(s, assets);
   const std::vector<RecordedSize> recorded = sizes_of_recording(s, pile.pieces);
   sizes["pile.bin"] =
-      std::uint64_t(pile.pieces * kPieceBytes + count_building_pieces(s, assets) * kBondedPieceBytes + 2000);
+      std::uint64_t(pile.pieces * kPieceBytes + count_building_pieces(s.pile, assets) * kBondedPieceBytes + 2000);
   if (s.victims.count > 0) sizes["victims.json"] = std::uint64_t(s.victims.count) * 400;
   if (s.fines.amount > 0) sizes["fines.bin"] = std::uint64_t(size_of_fines(s.fines).bytes);
   sizes["manifest.json"] = std::uint64_t(count_frames(recorded) * 250 + kManifestBytes);
@@ -189,9 +189,9 @@ std::uint64_t estimate_bytes(const Scenario& s, const AssetLibrary& assets, bool
   return sum;
 }
 
-double count_building_pieces(const Scenario& scenario, const AssetLibrary& assets) {
+double count_building_pieces(const PileScenario& pile, const AssetLibrary& assets) {
   PileCount size(assets);
-  if (scenario.pile.building.given()) add_building(scenario.pile, assets, size);
+  if (pile.building.given()) add_building(pile, assets, size);
   return size.pieces;
 }
 

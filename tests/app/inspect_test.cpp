@@ -129,7 +129,7 @@ TEST(SensorFrusta, ThoseOnRobotsThatAreNotThereAreLeftOut) {
   scenario.cameras.resize(2);
   scenario.cameras[0].name = "left", scenario.cameras[0].position = {0, 0.1, 0};
   scenario.cameras[1].name = "arm", scenario.cameras[1].ride.robot = "tank";
-  const auto placed = place_cameras(scenario, [](const MountedCamera& camera) -> std::optional<Pose> {
+  const auto placed = place_cameras(scenario.cameras, [](const MountedCamera& camera) -> std::optional<Pose> {
     if (camera.ride.on()) return std::nullopt;
     return Pose{{}, {5, 0, 1}};
   });

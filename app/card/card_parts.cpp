@@ -66,8 +66,8 @@ std::string describe_camera(const Scenario& s, const MountedCamera& mounted, std
 }  // namespace
 
 std::string describe_sensors(const Scenario& s, std::size_t frames) {
-  const std::vector<MountedCamera> cameras = all_cameras(s);
-  const std::vector<ImuScenario> imus = all_imus(s);
+  const std::vector<MountedCamera>& cameras = s.cameras;
+  const std::vector<ImuScenario>& imus = s.imus;
   std::string text = "## Sensors\n\n| sensor | |\n| --- | --- |\n";
   for (const MountedCamera& mounted : cameras) text += describe_camera(s, mounted, cameras.size() == 1 ? frames : 0);
   if (cameras.size() > 1) text += table_row("frames", std::to_string(frames) + " of all cameras");
@@ -86,11 +86,11 @@ std::string describe_sensors(const Scenario& s, std::size_t frames) {
 std::string describe_truth(const Scenario& s) {
   std::string text = "## Ground truth\n\nPoses of the camera at each stamp; exact depth; the settled pile as a mesh";
   std::vector<std::string> channels;
-  for (const MountedCamera& mounted : all_cameras(s))
+  for (const MountedCamera& mounted : s.cameras)
     for (const std::string& channel : mounted.camera.channels)
       if (std::find(channels.begin(), channels.end(), channel) == channels.end()) channels.push_back(channel);
   for (const std::string& channel : channels) text += "; per pixel `" + channel + "`";
-  const std::string truth = s.cameras.empty() ? "`groundtruth.txt`" : "`cameras/NAME/groundtruth.txt`";
+  const std::string truth = s.names_cameras() ? "`cameras/NAME/groundtruth.txt`" : "`groundtruth.txt`";
   return text + ".\n\n## Frames\n\nMetres, seconds, right-handed. World: Z up, the ground is z = 0. Camera body "
                 "(REP 103): X forward, Y left, Z up. Optical frame: Z forward, X right, Y down. " + truth +
                 " has the optical frame in the world, as TUM writes it.\n\n";

@@ -33,9 +33,9 @@ struct Camera {
   std::optional<ImuScenario> imu;  // the first on the camera's carrier
 
   explicit Camera(const Scenario& s)
-      : scenario(s), mounted(all_cameras(s).front()), k(mounted.camera.intrinsics()),
+      : scenario(s), mounted(s.cameras.front()), k(mounted.camera.intrinsics()),
         fisheye(k.lens == LensModel::fisheye), stereo(mounted.camera.stereo_baseline > 0) {
-    for (const ImuScenario& unit : all_imus(s))
+    for (const ImuScenario& unit : s.imus)
       if (!imu && unit.ride == mounted.ride) imu = unit;
   }
   // radtan has no k3; what has one is said in the card.
@@ -44,7 +44,7 @@ struct Camera {
   }
   double baseline() const { return mounted.camera.stereo_baseline; }
   double rate() const { return mounted.rate_hz.value_or(scenario.trajectory.rate_hz); }
-  std::string topic() const { return mounted.camera.topic.value_or("/" + mounted.name); }
+  std::string topic() const { return mounted.topic(); }
 };
 
 // The rows of a 4 x 4 matrix that ends in 0 0 0 1.
@@ -52,8 +52,8 @@ using Rows = std::vector<std::vector<double>>;
 
 // Points of the inertial unit in the optical frame (Z forward, X right) of the camera, or of the right one.
 Rows optical_from_imu(const Camera& c, bool right) {
-  const Pose rig_from_camera = c.mounted.is_rig() ? Pose{} : c.mounted.rig_from_camera();
-  const Pose rig_from_imu = c.imu->is_rig() ? Pose{} : c.imu->rig_from_imu();
+  const Pose rig_from_camera = c.mounted.rig_from_camera();
+  const Pose rig_from_imu = c.imu->rig_from_imu();
   const Pose body_from_imu = rig_from_camera.inverse() * rig_from_imu;
   const Mat3 turn = body_from_imu.rotation.matrix();
   const Vec3& shift = body_from_imu.translation;
@@ -163,7 +163,7 @@ std::string kalibr_imu(const ImuScenario& imu) {
   return row("accelerometer_noise_density", m.accelerometer_noise) +
          row("accelerometer_random_walk", m.accelerometer_walk) +
          row("gyroscope_noise_density", m.gyroscope_noise) +
-         row("gyroscope_random_walk", m.gyroscope_walk) + "rostopic: " + imu.topic.value_or("/" + imu.name) + "\n" +
+         row("gyroscope_random_walk", m.gyroscope_walk) + "rostopic: " + imu.ros_topic() + "\n" +
          row("update_rate", m.rate_hz);
 }
 

@@ -22,8 +22,8 @@ bool is_sensed(const Scenario& scenario, const std::string& name) {
 }
 
 RobotSenses::RobotSenses(const Scenario& scenario) : scenario_(scenario), untold_(scenario.robots.size()) {
-  for (const MountedCamera& camera : all_cameras(scenario)) camera_names_.push_back(camera.name);
-  for (const ImuScenario& imu : all_imus(scenario)) imu_names_.push_back(imu.name);
+  for (const MountedCamera& camera : scenario.cameras) camera_names_.push_back(camera.name);
+  for (const ImuScenario& imu : scenario.imus) imu_names_.push_back(imu.name);
 }
 
 RobotSenses::Sensed RobotSenses::sensed() const {

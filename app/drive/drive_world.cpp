@@ -64,7 +64,7 @@ DriveLimits limits_of(const TrajectorySpec& spec) {
 }
 
 void refuse_several_cameras(const ResolvedMission& mission) {
-  if (mission.scenario.cameras.empty()) return;
+  if (!mission.scenario.names_cameras()) return;
   const SourceFile& script = mission.provenance.script;
   std::vector<Diagnostic> mistakes{{"", 0, "cameras", "several cameras cannot be driven",
                                     "a mission with `camera`", "`cameras`",
@@ -86,7 +86,7 @@ void enter_robots(const DriveRequest& request, const ResolvedMission& mission, R
 
 void adapt(DriveWorld& world, const DriveRequest& request) {
   Scenario& scenario = world.scenario;
-  resize_camera(scenario.camera, request.width, request.height);
+  resize_camera(scenario.cameras.front().camera, request.width, request.height);
   // The mission that is saved lies elsewhere.
   scenario = with_whole_paths(scenario, world.assets, !request.of.asset_packs.empty());
   const double rate = scenario.trajectory.rate_hz;
@@ -127,7 +127,7 @@ std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
   run.progress.start("scene");
   // By hand there is no time for the reference; the saved mission keeps what was asked for.
   Scenario drawn = world->scenario;
-  drawn.camera.colour = ColourSpec();
+  drawn.cameras.front().camera.colour = ColourSpec();
   const Scene scene = world->robots ? world->robots->build_scene(drawn)
                                     : build_scene(drawn, world->assets, world->pile);
   world->renderer = prepare_renderer(scene, drawn, context, world->threads, [&](double fraction) {

@@ -59,26 +59,25 @@ std::string whole(double number) { return std::to_string(std::llround(number)); 
 
 }  // namespace
 
-RunPreview preview_run(RunKind kind, const Scenario& s, const Scenario& pile_mission,
-                       const AssetLibrary& assets, const std::string& out) {
+RunPreview preview_run(RunKind kind, const Scenario& s, const AssetLibrary& assets, const std::string& out) {
   RunPreview preview;
-  const PileScenario& pile = pile_mission.pile;
+  const PileScenario& pile = s.pile;
   preview.pieces = double(pile.layers) * pile.pieces_per_layer + double(pile.placed.size()) +
-                   count_building_pieces(pile_mission, assets);
+                   count_building_pieces(pile, assets);
   if (kind != RunKind::settle) {
-    const std::vector<MountedCamera> cameras = all_cameras(s);
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-      const CameraScenario& camera = cameras[i].camera;
+    for (std::size_t i = 0; i < s.cameras.size(); ++i) {
+      const CameraScenario& camera = s.cameras[i].camera;
       const double frames = size_of_flight(s, i).frames;
       preview.frames += frames;
       const int samples = camera.sensor.pixel_samples;
       preview.megapixels += frames * camera.width * camera.height / 1e6 * samples * samples *
                             (camera.stereo_baseline > 0 ? 2 : 1);
     }
-    const double rate = cameras.front().rate_hz.value_or(s.trajectory.rate_hz);
+    const double rate = s.cameras.front().rate_hz.value_or(s.trajectory.rate_hz);
     preview.robot_seconds = double(s.robots.size()) * size_of_flight(s, 0).frames / rate;
-    preview.traced = s.camera.colour.quality == RenderQuality::reference;
-    if (preview.traced) preview.megapixels *= s.camera.colour.samples;
+    const ColourSpec& colour = s.cameras.front().camera.colour;
+    preview.traced = colour.quality == RenderQuality::reference;
+    if (preview.traced) preview.megapixels *= colour.samples;
   }
   preview.collapses = pile.building.given();
   preview.bytes = estimate_bytes(s, assets, kind == RunKind::settle);

@@ -21,9 +21,7 @@ struct RunPreview {
   std::uint64_t free = 0;          // on the disk of the output
   std::optional<double> seconds;   // about; none: nothing like it, as large as a twentieth, was run here yet
 };
-// pile: the mission whose pile is settled; of a `render` another one than `mission`.
-RunPreview preview_run(RunKind kind, const Scenario& mission, const Scenario& pile,
-                       const AssetLibrary& assets, const std::string& out);
+RunPreview preview_run(RunKind kind, const Scenario& mission, const AssetLibrary& assets, const std::string& out);
 
 // "1217 pieces, 121 frames; at most 1.2 GB (67 GB free), about 30 s by earlier runs"
 std::string describe(const RunPreview& preview);

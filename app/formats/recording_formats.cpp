@@ -29,7 +29,7 @@ SimplemapOptions simplemap_options(In in) {
   SimplemapOptions options;
   options.recording = in.recording;
   const auto lens =
-      std::make_shared<const Lens>(all_cameras(in.scenario)[in.camera].camera.intrinsics());
+      std::make_shared<const Lens>(in.scenario.cameras[in.camera].camera.intrinsics());
   options.ray = [lens](double u, double v) { return lens->direction(u, v); };
   return options;
 }

@@ -29,11 +29,11 @@ class RobotSensor : public Sensor {
 
 }  // namespace
 
-SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const SensorBegin& begin,
+SensorSuite::SensorSuite(const Scenario& scenario, const RigFlight& flight, const SensorBegin& begin,
                          const Scene& scene, Renderer& renderer, int threads,
                          const RobotReadings& robots) {
-  const bool rays = casts_rays(flown.sensors);
-  const SensorParts parts{flown, begin.noise_seed, robots, flight.path, rays ? std::make_shared<RayWorld>(scene) : nullptr,
+  const bool rays = casts_rays(scenario.sensors);
+  const SensorParts parts{scenario, begin.noise_seed, flight.start_ns, robots, flight.path, rays ? std::make_shared<RayWorld>(scene) : nullptr,
                           std::make_shared<const Medium>(renderer.medium()), threads};
   std::int64_t last_ns = 0;
   for (const Flight& camera : flight.cameras) {
@@ -42,10 +42,9 @@ SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const S
   }
   const auto add = [this](std::unique_ptr<Sensor> sensor, std::int64_t last) { members_.push_back({std::move(sensor), last}); };
   for (const std::vector<RobotSample>& samples : robots.samples) add(std::make_unique<RobotSensor>(samples), last_ns);
-  const std::vector<ImuScenario> imus = all_imus(flown);
-  for (std::size_t i = 0; i < imus.size(); ++i) add(make_imu(parts, i), robots.end_of(imus[i].ride, flown.start_ns, last_ns));
-  for (std::size_t i = 0; i < flown.sensors.size(); ++i)
-    add(make_sensor(parts, i), robots.end_of(flown.sensors[i].ride, flown.start_ns, last_ns));
+  for (std::size_t i = 0; i < scenario.imus.size(); ++i) add(make_imu(parts, i), robots.end_of(scenario.imus[i].ride, flight.start_ns, last_ns));
+  for (std::size_t i = 0; i < scenario.sensors.size(); ++i)
+    add(make_sensor(parts, i), robots.end_of(scenario.sensors[i].ride, flight.start_ns, last_ns));
   for (std::size_t i = 0; i < flight.cameras.size(); ++i)
     add(make_flown_camera(parts, i, flight, begin.frames.empty() ? 0 : begin.frames[i], renderer), last_ns);
 }

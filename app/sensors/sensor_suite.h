@@ -22,12 +22,12 @@ struct SensorBegin {
 };
 
 // All sensors on the rig and on links of robots, and the readings of robots, merged by stamp. Samples with equal stamps
-// come in this order: robots, inertial units, other sensors in the order of the scenario, cameras in the order of all_cameras(). The renderer and the
+// come in this order: robots, inertial units, other sensors, cameras, each in the order of the scenario. The renderer and the
 // readings must outlive the suite.
 class SensorSuite {
  public:
-  // flown: the scenario with the resolved path, from which `flight` was made. scene: the scene of the renderer.
-  SensorSuite(const Scenario& flown, const RigFlight& flight, const SensorBegin& begin, const Scene& scene,
+  // flight: of the scenario's cameras. scene: the scene of the renderer.
+  SensorSuite(const Scenario& scenario, const RigFlight& flight, const SensorBegin& begin, const Scene& scene,
               Renderer& renderer, int threads, const RobotReadings& robots);
 
   // Number of frames of each camera in the flight.

@@ -31,9 +31,8 @@ PoseHistory::PoseHistory(const Scenario& scenario, const std::vector<MissionRobo
     rig_ = 0;
     ways_.ride = mounts_.back().way;
   }
-  for (const MountedCamera& camera : scenario.cameras) add_link(camera.ride, "cameras." + camera.name + ".ride");
-  add_link(scenario.imu.ride, "imu.ride");
-  for (const ImuScenario& imu : scenario.imus) add_link(imu.ride, "imus." + imu.name + ".ride");
+  for (const MountedCamera& camera : scenario.cameras) add_link(camera.ride, camera.key() + ".ride");
+  for (const ImuScenario& imu : scenario.imus) add_link(imu.ride, imu.key() + ".ride");
   for (const SensorItem& sensor : scenario.sensors) add_link(sensor.ride, sensor.key() + ".ride");
   ways_.felt = find_felt_links(scenario, robots);
 }

@@ -97,10 +97,10 @@ void Session::make_sensors() {
     std::sort(list.begin(), list.end());
   };
   if (options_.observed) {
-    add(imus, find_carried(all_imus(scenario_), history_.ways()));
+    add(imus, find_carried(scenario_.imus, history_.ways()));
     add(readings, find_carried(scenario_.sensors, history_.ways()));
   }
-  if (options_.depth) add(depths, find_carried(all_cameras(scenario_), history_.ways()));
+  if (options_.depth) add(depths, find_carried(scenario_.cameras, history_.ways()));
   const bool rays = !depths.empty() || (!readings.empty() && casts_rays(scenario_.sensors));
   if (imus.empty() && readings.empty() && !rays && colours.empty()) return;
   Scene scene;
@@ -108,7 +108,7 @@ void Session::make_sensors() {
     scene = build_live_scene(scenario_, mission_.assets, pile_, seen_,
                              [this](int id, std::int64_t stamp_ns) { return history_.pose_of(id, stamp_ns); });
   if (rays && !world_of_rays_) world_of_rays_ = std::make_shared<RayWorld>(scene);
-  const SensorParts parts{scenario_, scenario_.seed, history_.ways(), history_.ways().ride, world_of_rays_,
+  const SensorParts parts{scenario_, scenario_.seed, scenario_.start_ns, history_.ways(), history_.ways().ride, world_of_rays_,
                           std::make_shared<const Medium>(scenario_.air, scenario_.seed), context_.threads()};
   for (const std::size_t i : imus) sensors_.push_back(make_imu(parts, i));
   for (const std::size_t i : readings) sensors_.push_back(make_sensor(parts, i));

@@ -137,12 +137,12 @@ struct CameraWay {
 std::vector<CameraWay> find_ways(const std::string& folder, const Scenario& scenario) {
   std::vector<CameraWay> ways;
   std::error_code failed;
-  for (const MountedCamera& camera : all_cameras(scenario)) {
+  for (const MountedCamera& camera : scenario.cameras) {
     CameraWay way;
-    way.name = scenario.cameras.empty() ? "" : camera.name;
+    way.name = camera.named ? camera.name : "";
     way.aspect = double(camera.camera.height) / camera.camera.width;
-    way.topic = camera.camera.topic.value_or("/" + camera.name);
-    const std::string file = (way.name.empty() ? folder : folder + "/" + kCamerasFolder + "/" + way.name) + "/groundtruth.txt";
+    way.topic = camera.topic();
+    const std::string file = camera.folder_in(folder) + "/groundtruth.txt";
     if (fs::is_regular_file(file, failed)) way.poses = load_trajectory(file);
     ways.push_back(std::move(way));
   }

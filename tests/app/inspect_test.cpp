@@ -128,7 +128,7 @@ TEST(SensorFrusta, ThoseOnRobotsThatAreNotThereAreLeftOut) {
   scenario.cameras.resize(2);
   scenario.cameras[0].name = "left", scenario.cameras[0].position = {0, 0.1, 0};
   scenario.cameras[1].name = "arm", scenario.cameras[1].ride.robot = "tank";
-  const auto placed = place_cameras(scenario, [](const MountedCamera& camera) -> std::optional<Pose> {
+  const auto placed = place_cameras(scenario.cameras, [](const MountedCamera& camera) -> std::optional<Pose> {
     if (camera.ride.on()) return std::nullopt;
     return Pose{{}, {5, 0, 1}};
   });
@@ -216,7 +216,7 @@ TEST(InspectedPile, WhatIsPulledIsSavedAsItIsAndOtherThanUntouched) {
   const Vec3 centre = world.piece(0).world_from_body * world.centre_of_mass(0);
   ASSERT_TRUE(spring.grab(world, 0, centre));
   spring.pull_to(centre + Vec3{0, 0, 1});
-  const double step = pulled.mission.pile_scenario.settle.step;
+  const double step = pulled.mission.scenario.settle.step;
   const auto pull = [&] { world.apply_impulse(0, spring.point(world), spring.calc_impulse(world, step)); };
   pull();
   int steps = 0;

@@ -190,6 +190,7 @@ TEST_F(Pack, TheCardOfARigHasItsCamerasAndUnits) {
   EXPECT_TRUE(fs::exists(folder + "/settings/openvins/estimator_config.yaml"));
   EXPECT_IN("update_rate: 150", read_file(folder + "/settings/kalibr/imu.yaml"));
   EXPECT_IN("rostopic: /inside", read_file(folder + "/settings/kalibr/imu.yaml"));
+  EXPECT_IN("/inside.linear_acceleration.x", read_file(folder + "/settings/foxglove.json"));
 }
 
 // The unit and the camera at places and turns of their own, and topics that the mission names.

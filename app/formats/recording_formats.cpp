@@ -89,7 +89,8 @@ const std::vector<RecordingFormat> kFormats{
      [](Path p, In in) -> Made { return make_mcap_recorder(p, ros_of(in)); },
      [](Size s) {
        return s.of(s.picture.ros() + kFrameOverhead, 420, s.legend + 1e5) + size_of_scans(s.flight, 500, 22);
-     }},
+     },
+     false, false, kBagMetadata},
     {"groundtruth", "groundtruth.txt", false, &OutputScenario::groundtruth,
      [](Path p, In) -> Made { return make_tum_trajectory_recorder(p); },
      [](Size s) { return s.of(140, 0, 100); }, true},
@@ -139,6 +140,7 @@ RosOptions ros_options(const OutputScenario& outputs, const Recording& recording
   if (outputs.depth == DepthEncoding::metres) ros.depth = RosDepth::metres;
   if (outputs.pictures == PictureEncoding::png) ros.pictures = RosPictures::png;
   if (outputs.pictures == PictureEncoding::jpeg) ros.pictures = RosPictures::jpeg;
+  ros.vector_colours = outputs.vectors == VectorEncoding::colours;
   return ros;
 }
 

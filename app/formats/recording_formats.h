@@ -35,6 +35,7 @@ struct RecordingFormat {
   double (*estimate)(const RecordedSize& size);  // largest size for one camera; unit: byte
   bool one_camera = false;                       // whether it holds a single camera
   bool of_sensors = false;                       // whether it is only there where the mission has `sensors`
+  std::string beside{};                          // a second, small file in the run's folder: "metadata.yaml"
 };
 
 // Whether the scenario asks for it.

@@ -88,6 +88,8 @@ const std::vector<std::string>& usual_run_files() {
                                    "flight.json", "victims.json", "fines.bin"};
     for (const RecordingFormat& format : recording_formats())
       if (!format.is_folder) names.push_back(format.leaves);
+    for (const RecordingFormat& format : recording_formats())
+      if (!format.beside.empty()) names.push_back(format.beside);
     for (const MeshFormat& format : mesh_formats())
       if (!format.is_folder) names.insert(names.end(), format.leaves.begin(), format.leaves.end());
     return names;

@@ -119,6 +119,9 @@ enum class DepthEncoding {
 
 enum class PictureEncoding { raw, png, jpeg };
 
+// Of streams with several values a pixel, such as normals.
+enum class VectorEncoding { values, colours };
+
 enum class RawlogFormat {
   observations,  // a sequence of observations
   actions,       // actions of a robot and frames of observations in turn
@@ -145,6 +148,7 @@ struct OutputScenario {
   bool preview = true;              // preview.png, a contact sheet
   DepthEncoding depth = DepthEncoding::millimetres;  // in bag and MCAP file
   PictureEncoding pictures = PictureEncoding::raw;   // in bag and MCAP file
+  VectorEncoding vectors = VectorEncoding::values;   // in bag and MCAP file
 };
 
 // Records the pile while it settles, by a standing camera before its flight.

@@ -380,6 +380,9 @@ void add_outputs(Schema& k, OutputScenario& o) {
   k.choice(
       "outputs.pictures", o.pictures, {"raw", "png", "jpeg"},
       "Pictures in bag and MCAP files: raw, or CompressedImage; `jpeg` is lossy for colour, never for depth.");
+  k.choice("outputs.vectors", o.vectors, {"values", "colours"},
+           "`normals`, `flow` and `position` in bag and MCAP files: 32FC2 and 32FC3, which hold every value, or rgb8, which every "
+           "viewer shows.");
 }
 
 void add_voids(Schema& k, VoidScenario& v) {

@@ -6,7 +6,9 @@
 #include "app/provenance/earlier_files.h"
 #include "app/scene/build_scene.h"
 #include "app/surroundings/seen_surroundings.h"
+#include "app/victims/place_victims.h"
 #include "io/recording/one_camera.h"
+#include "kernel/base/hash.h"
 #include "kernel/base/system/output_files.h"
 #include "scripting/scenario/lidar_schema.h"
 
@@ -123,9 +125,20 @@ Recording describe_recording(const Scenario& scenario, const AssetLibrary& asset
     recording.legend.pieces.push_back(
         {std::uint16_t(kFirstAssetLabel + piece.type), assets.types[type].name});
   }
+  for (const Victim& victim : find_victims(pile)) recording.legend.pieces.at(std::size_t(victim.piece)).victim = true;
   add_fines(scenario, assets, pile, recording.legend);
   add_surroundings(scenario, assets, pile, recording.legend);
   return recording;
+}
+
+void add_links(const RobotModel& robot, const AssetLibrary& assets, Legend& legend) {
+  for (const RobotLink& link : robot.links)
+    legend.pieces.push_back({std::uint16_t(kFirstAssetLabel + assets.types.size()), robot.name + "/" + link.name});
+}
+
+std::string recording_title(const std::string& script, std::uint64_t seed, const PileState& pile) {
+  return std::filesystem::path(script).stem().string() + "   seed " + std::to_string(seed) + "   " +
+         std::to_string(pile.pieces.size()) + " pieces   state " + hex64(pile.state_hash());
 }
 
 RecorderSet make_recorders(const RecordingInputs& inputs, const std::string& folder) {
@@ -136,6 +149,7 @@ RecorderSet make_recorders(const RecordingInputs& inputs, const std::string& fol
     const std::string path = folder + "/" + format.leaves;
     remove_folder_of_killed_run(path);
     set.names.push_back(format.leaves);
+    if (!format.beside.empty()) set.names.push_back(format.beside);
     set.recorders.push_back(format.make(path, inputs));
   }
   if (several) add_recorders_of_cameras(inputs, folder, set);

@@ -140,6 +140,11 @@ struct OutputScenario {
   bool frames = false;              // plain PNG and EXR: a folder
   bool pcd = false;                 // PCL: a folder of a file a scan
   bool kitti = false;               // KITTI: a folder of a file a scan
+  bool kitti_odometry = false;      // KITTI odometry: a folder with pictures, scans and poses
+  bool nerfstudio = false;          // nerfstudio and splats: a folder with transforms.json
+  bool coco = false;                // COCO: a folder with boxes and masks
+  bool webdataset = false;          // WebDataset: a folder of tar files
+  bool lerobot = false;             // LeRobot v3: a folder of Parquet files and videos
   bool stl = true;                  // pile.stl
   bool track = false;               // motion of the pieces: track.bin and, as glTF animation, track.glb
   std::vector<std::string> meshes;  // the pile in further formats, of export_names()

@@ -145,5 +145,30 @@ TEST(Convert, KnowsWhatTheNumbersOfTheRecordingMean) {
   EXPECT_IN("readings of robots cannot be read back", states.err);
 }
 
+TEST(Pieces, AreATableWithTheirMasses) {
+  const Outcome table = run_rubble("pieces " + dataset());
+  ASSERT_EQ(table.exit_code, 0) << table.err;
+  std::istringstream lines(table.out);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line.substr(0, 62), "number,name,asset,material,layer,status,scale,density_kg_m3,vo");
+  int rows = 0;
+  for (; std::getline(lines, line); ++rows) {
+    std::vector<std::string> cells;
+    std::istringstream words(line);
+    for (std::string word; std::getline(words, word, ',');) cells.push_back(word);
+    ASSERT_EQ(cells.size(), 20u) << line;
+    EXPECT_EQ(cells[1], "brick_00000" + std::to_string(rows));
+    const auto number = [&](std::size_t i) { return std::stod(cells[i]); };
+    EXPECT_NEAR(number(9), number(7) * number(8), 1e-9);
+    EXPECT_GT(number(9), 0.5);  // a brick
+    EXPECT_LT(number(9), 6);
+    EXPECT_NEAR(number(13) * number(13) + number(14) * number(14) + number(15) * number(15) + number(16) * number(16), 1, 1e-9);
+    EXPECT_GT(number(19), 0);  // it lies on the ground
+    EXPECT_LT(number(19), 1);
+  }
+  EXPECT_EQ(rows, 8);
+}
+
 }  // namespace convert_test
 }  // namespace rubble::testing

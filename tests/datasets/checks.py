@@ -229,10 +229,26 @@ def evo_agrees():
             close(found["ate_" + key + "_se3_m"], wanted, 1e-6, "%s of %s", key, name)
 
 
+def pandas_reads_the_table_of_pieces():
+    """The table of `rubble pieces` as Parquet is that as CSV; there is a row for each piece that the legend names."""
+    import pandas
+    table, text = pandas.read_parquet(DATA / "pieces.parquet"), pandas.read_csv(DATA / "pieces.csv")
+    need(list(table.columns) == list(text.columns) and len(table) == len(text), "columns and rows")
+    for name in table.columns:
+        need((table[name] == text[name]).all(), "column %s", name)
+    legend = json.loads((DATA / "single" / "frames" / "legend.json").read_text(encoding="utf-8"))
+    names = {entry["label"]: entry["name"] for entry in legend["labels"]}
+    assets = {entry["instance"]: names[entry["label"]] for entry in legend["instances"]}
+    for row in table.itertuples():
+        need(assets[row.number] == row.asset, "piece %d is a %s", row.number, row.asset)
+    need((table.mass_kg > 0).all(), "masses")
+
+
 CHECKS = [rosbags_reads_the_folder, robots_are_as_rep_105_says, mcap_has_one_schema_for_each_type, nerfstudio_projects_points,
           nerfstudio_has_all_cameras, pycolmap_reads_rigs, pycolmap_triangulates_with_rigs, pycocotools_finds_masks,
           pykitti_reads_odometry, webdataset_decodes, lerobot_is_read_by_pyarrow, mcap_ros2_decodes_all_topics,
-          rerun_converts_without_an_error, evo_agrees]
+          rerun_converts_without_an_error, evo_agrees,
+          pandas_reads_the_table_of_pieces]
 
 
 def main():

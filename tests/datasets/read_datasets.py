@@ -90,6 +90,8 @@ def score(program, data):
         estimate.write_text(disturbed(truth, columns, place), encoding="ascii")
         done = subprocess.run([program, "eval", "trajectory", estimate, truth, "--json"], check=True, stdout=subprocess.PIPE)
         (data / ("score_" + name + ".json")).write_bytes(done.stdout)
+    for ending in (".csv", ".parquet"):
+        subprocess.run([program, "pieces", data / "single", "--out", data / ("pieces" + ending)], check=True)
 
 
 def main():

@@ -11,7 +11,7 @@
 #include "kernel/voids/seen_cells.h"
 #include "python/arrays.h"
 #include "python/parts.h"
-#include "render/lidar/depth_rays.h"
+#include "render/rays/depth_rays.h"
 
 namespace rubble::python {
 namespace {
@@ -99,7 +99,7 @@ class Explorer {
       }
   }
 
-  LidarWorld world_;
+  RayWorld world_;
   PileQueries queries_;
   DepthRays rays_;
   ThreadPool pool_;

@@ -1,7 +1,5 @@
-// Sensors over a pile that rests: frames of the renderer, depth by exact rays, scans of LiDARs.
+// Sensors over a pile that rests: frames of the renderer, depth by exact rays.
 #include <pybind11/stl.h>
-
-#include <algorithm>
 
 #include "app/pipeline/stages.h"
 #include "app/scene/build_scene.h"
@@ -9,8 +7,7 @@
 #include "python/arrays.h"
 #include "python/parts.h"
 #include "render/gl/gl_context.h"
-#include "render/lidar/depth_rays.h"
-#include "render/lidar/lidar.h"
+#include "render/rays/depth_rays.h"
 #include "render/renderer.h"
 
 namespace rubble::python {
@@ -30,11 +27,11 @@ py::array_t<double> camera_matrix(const Intrinsics& k) {
   return take_vector<double>({k.fx, 0, k.cx, 0, k.fy, k.cy, 0, 0, 1}, {3, 3});
 }
 
-namespace {
-
 Scene scene_of(const SettledMission& settled) {
   return build_scene(settled.mission.scenario, settled.mission.assets, settled.state);
 }
+
+namespace {
 
 // Colour and depth, as `rubble run` draws them.
 class FrameRenderer {
@@ -81,56 +78,14 @@ class DepthCamera {
   py::array_t<double> matrix() const { return camera_matrix(rays_.intrinsics()); }
 
  private:
-  LidarWorld world_;
+  RayWorld world_;
   DepthRays rays_;
   ThreadPool pool_;
-};
-
-LidarModel model_named(const std::string& name) {
-  const char* const names[] = {"vlp16", "os0", "os1", "os2", "mid360", "utm30lx"};
-  for (int i = 0; i < 6; ++i)
-    if (name == names[i]) return LidarModel(i);
-  throw InputError({"", 0, "model", "unknown LiDAR", "vlp16, os0, os1, os2, mid360 or utm30lx",
-                    "\"" + name + "\"", ""});
-}
-
-class PyLidar {
- public:
-  PyLidar(SharedPile settled, const std::string& model, bool noise, std::uint64_t seed, int threads)
-      : settled_(std::move(settled)), world_(std::make_shared<LidarWorld>(scene_of(*settled_))), seed_(seed),
-        threads_(threads) {
-    LidarScenario lidar;
-    lidar.model = model_named(model), lidar.noise = noise;
-    spec_ = lidar.spec();
-  }
-
-  // The sensor stands still.
-  py::array scan(const DoubleArray& world_from_lidar, int number) const {
-    const Pose pose = to_pose(world_from_lidar, "pose");
-    const Scenario& s = settled_->mission.scenario;
-    LidarScan scan;
-    {
-      const py::gil_scoped_release free;
-      Lidar lidar(spec_, world_, {[pose](std::int64_t) { return pose; }, s.start_ns}, Medium(s.air, s.seed), seed_,
-                  threads_);
-      scan = lidar.take(number);
-    }
-    const auto count = py::ssize_t(scan.points.size());
-    return take_vector(std::move(scan.points), {count});
-  }
-
- private:
-  SharedPile settled_;
-  std::shared_ptr<LidarWorld> world_;
-  LidarSpec spec_;
-  std::uint64_t seed_;
-  int threads_;
 };
 
 }  // namespace
 
 void add_sensors(py::module_& module) {
-  PYBIND11_NUMPY_DTYPE(LidarPoint, x, y, z, intensity, time, ring, column);
   py::class_<FrameRenderer>(module, "_Renderer")
       .def(py::init([](const SharedPile& s, int threads) {
         return std::make_unique<FrameRenderer>(s, threads);
@@ -144,12 +99,7 @@ void add_sensors(py::module_& module) {
       }))
       .def("depth", &DepthCamera::depth, py::arg("pose"))
       .def_property_readonly("K", &DepthCamera::matrix);
-  py::class_<PyLidar>(module, "_Lidar")
-      .def(py::init([](const SharedPile& s, const std::string& model, bool noise,
-                       const py::object& seed, int threads) {
-        return std::make_unique<PyLidar>(s, model, noise, to_seed(seed), threads);
-      }))
-      .def("scan", &PyLidar::scan, py::arg("pose"), py::arg("number") = 0);
+  add_range_scans(module);
 }
 
 }  // namespace rubble::python

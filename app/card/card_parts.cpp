@@ -79,10 +79,7 @@ std::string describe_sensors(const Scenario& s, std::size_t frames) {
                           carried_by(imu.ride));
   }
   for (const SensorItem& sensor : s.sensors)
-    text += table_row(sensor.figures->title() + " `" + sensor.name + "`", format_number(sensor.rate_hz) + " Hz" + carried_by(sensor.ride));
-  for (const LidarScenario& lidar : s.lidars)
-    text += table_row("LiDAR `" + lidar.name + "`", lidar.spec().model + ", " + format_number(lidar.spec().rate_hz) +
-                                                        " scans/s" + carried_by(lidar.ride));
+    text += table_row(sensor.figures->title() + " `" + sensor.name + "`", sensor.figures->summary(sensor.rate()) + carried_by(sensor.ride));
   return text + "\n";
 }
 

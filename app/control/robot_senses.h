@@ -22,13 +22,13 @@ class RobotSenses {
 
   // Numbers of the sensors that `senses` of any robot names.
   struct Sensed {
-    std::vector<std::size_t> lidars, readings, depths, colours, imus;
+    std::vector<std::size_t> readings, depths, colours, imus;
   };
   Sensed sensed() const;
 
   // A frame has depth, or colours.
   void hear(const Sample& sample);
-  // Adds `lidars`, `cameras`, `images`, `imus` and `sensors` to what the robot's function is told: what was heard since its last
+  // Adds the tables of kinds that scan, `cameras`, `images`, `imus` and `sensors` to what the robot's function is told: what was heard since its last
   // call.
   void tell(std::size_t robot, Value& told);
 

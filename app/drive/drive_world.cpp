@@ -1,6 +1,7 @@
 #include "app/drive/drive_world.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "app/drive/drive_log.h"
@@ -83,12 +84,14 @@ void enter_robots(const DriveRequest& request, const ResolvedMission& mission, R
   world.entry = make_driven_pose(world.robots->world_from_rig());
 }
 
-void adapt(Scenario& scenario, const DriveRequest& request, const AssetLibrary& assets) {
+void adapt(DriveWorld& world, const DriveRequest& request) {
+  Scenario& scenario = world.scenario;
   resize_camera(scenario.camera, request.width, request.height);
   // The mission that is saved lies elsewhere.
-  scenario = with_whole_paths(scenario, assets, !request.of.asset_packs.empty());
-  double& rate = scenario.trajectory.rate_hz;
-  if (rate < kLeastRate || rate > kMostRate) rate = TrajectorySpec{}.rate_hz;
+  scenario = with_whole_paths(scenario, world.assets, !request.of.asset_packs.empty());
+  const double rate = scenario.trajectory.rate_hz;
+  if (rate < kLeastRate) world.steps_per_frame = int(std::ceil(TrajectorySpec{}.rate_hz / rate));
+  if (rate > kMostRate) print_err("drive: %g frames a second are asked for: time goes as slowly as they are drawn\n", rate);
   for (const std::string& off : adapt_to_driving(scenario))
     print_err("drive: without %s, which needs the future path\n", off.c_str());
 }
@@ -118,7 +121,7 @@ std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
   } else {
     enter_robots(request, mission, run, *world);
   }
-  adapt(world->scenario, request, world->assets);
+  adapt(*world, request);
   if (!world->robots) check_entry(*world);
 
   run.progress.start("scene");

@@ -29,12 +29,19 @@ double triangles_of(const AssetLibrary& assets, int type) {
   return double(assets.meshes[std::size_t(type)]->levels.front().triangles.size());
 }
 
+// of_type: how many pieces each type has; expected numbers.
+struct PileCount : PileModelSize {
+  explicit PileCount(const AssetLibrary& assets) : of_type(assets.types.size()) {}
+  std::vector<double> of_type;
+};
+
 // Of a type or an assembly, as placements and mixes have it.
-void add(const AssetLibrary& assets, int index, double times, PileModelSize& size) {
+void add(const AssetLibrary& assets, int index, double times, PileCount& size) {
   const auto types = int(assets.types.size());
   if (index < types) {
     size.pieces += times;
     size.triangles += times * triangles_of(assets, index);
+    size.of_type[std::size_t(index)] += times;
     return;
   }
   for (const AssemblyLink& link : assets.assemblies[std::size_t(index - types)].links)
@@ -76,7 +83,7 @@ void add_surroundings(const SurroundingsSpec& s, PileModelSize& size) {
 }
 
 // The building's pieces, and what furnishes it: in each bay of each floor, or on each floor of a plan.
-void add_building(const PileScenario& pile, const AssetLibrary& assets, PileModelSize& size) {
+void add_building(const PileScenario& pile, const AssetLibrary& assets, PileCount& size) {
   for (std::size_t i = 0; i < assets.building_counts.size(); ++i)
     add(assets, assets.building_first_type + int(i), assets.building_counts[i], size);
   const BuildingSpec& b = pile.building;
@@ -87,7 +94,7 @@ void add_building(const PileScenario& pile, const AssetLibrary& assets, PileMode
 }
 
 PileModelSize size_of_pile(const Scenario& s, const AssetLibrary& assets) {
-  PileModelSize size;
+  PileCount size(assets);
   double weights = 0;
   for (const MixEntry& entry : assets.mix) weights += entry.weight;
   const double dropped = double(s.pile.layers) * s.pile.pieces_per_layer;
@@ -98,9 +105,10 @@ PileModelSize size_of_pile(const Scenario& s, const AssetLibrary& assets) {
   if (s.pile.building.given()) add_building(s.pile, assets, size);
   add_fines(s.fines, size);
   add_surroundings(s.surroundings, size);
-  size.types += double(assets.types.size());
-  for (std::size_t i = 0; i < assets.types.size(); ++i)
-    size.type_triangles += triangles_of(assets, int(i));
+  for (std::size_t i = 0; i < assets.types.size(); ++i) {
+    const double likely = std::min(1.0, size.of_type[i]);
+    size.types += likely, size.type_triangles += likely * triangles_of(assets, int(i));
+  }
   return size;
 }
 
@@ -183,7 +191,7 @@ std::uint64_t estimate_bytes(const Scenario& s, const AssetLibrary& assets, bool
 }
 
 double count_building_pieces(const Scenario& scenario, const AssetLibrary& assets) {
-  PileModelSize size;
+  PileCount size(assets);
   if (scenario.pile.building.given()) add_building(scenario.pile, assets, size);
   return size.pieces;
 }

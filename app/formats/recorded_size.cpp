@@ -34,24 +34,26 @@ double duration_of_settling(const Scenario& s) {
 }
 
 void count_scans(const Scenario& s, double duration, FlightSize& size) {
-  for (const LidarScenario& lidar : s.lidars) {
-    const LidarSpec spec = lidar.spec();
-    const double scans = std::floor(duration * spec.rate_hz) + 1;
-    size.scans += scans;
-    size.points += scans * spec.rays() * (spec.returns == LidarReturns::dual ? 2 : 1);
+  for (const SensorItem& sensor : s.sensors) {
+    if (!scans(sensor)) continue;
+    const double count = std::floor(duration * sensor.rate()) + 1;
+    size.scans += count;
+    size.points += count * sensor.figures->most_points();
   }
 }
 
 double rate_of_readings(const Scenario& s) {
   double rate = 0;
-  for (const SensorItem& sensor : s.sensors) rate += sensor.rate_hz;
+  for (const SensorItem& sensor : s.sensors)
+    if (!scans(sensor)) rate += sensor.rate();
   return rate;
 }
 
 // Of all together, and of the messages of other sensors, none of which is larger; unit: Hz
 double rate_of_imus(const Scenario& s) {
   double rate = 0;
-  for (const SensorItem& sensor : s.sensors) rate += sensor.rate_hz * double(sensor.figures->topics().size());
+  for (const SensorItem& sensor : s.sensors)
+    if (!scans(sensor)) rate += sensor.rate() * double(sensor.figures->topics().size());
   for (const ImuScenario& imu : all_imus(s)) rate += imu.model.rate_hz;
   return rate;
 }

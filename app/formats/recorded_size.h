@@ -13,7 +13,7 @@ constexpr double kPictureOverhead = 2048;  // of a file and its line in a list; 
 
 // What is recorded of a flight: counts.
 struct FlightSize {
-  // At most; a mean where the pile decides. points: of LiDARs, with all their returns.
+  // At most; a mean where the pile decides. points: of the scans, with all their returns.
   double frames = 0, key_frames = 0, imu_samples = 0, scans = 0, points = 0, readings = 0;
 };
 // Of one of its cameras; other sensors are counted with the first.
@@ -74,7 +74,7 @@ struct RecordedSize {
     return flight.frames * per_frame + flight.imu_samples * per_imu_sample + once;
   }
 };
-// At most, of LiDARs; unit: byte.
+// At most, of scans; unit: byte.
 inline double size_of_scans(const FlightSize& flight, double per_scan, double per_point) {
   return flight.scans * per_scan + flight.points * per_point;
 }

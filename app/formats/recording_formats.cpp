@@ -6,7 +6,7 @@
 #include "io/datasets/dataset_recorders.h"
 #include "io/datasets/euroc_recorder.h"
 #include "io/datasets/frames_recorder.h"
-#include "io/datasets/lidar_recorder.h"
+#include "io/datasets/range_scan_recorder.h"
 #include "io/datasets/reading_recorder.h"
 #include "io/datasets/tum_recorder.h"
 #include "io/learning/lerobot_recorder.h"
@@ -63,8 +63,10 @@ ContactSheetOptions sheet_options(In in) {
   ContactSheetOptions sheet;
   sheet.total_frames = in.frames.at(0);
   sheet.title = in.title;
-  if (!in.recording.lidars.empty()) {
-    sheet.lidar = in.recording.lidars.front().name;
+  const std::vector<SensorRecord>& sensors = in.recording.sensors;
+  const auto first = std::find_if(sensors.begin(), sensors.end(), [](const SensorRecord& sensor) { return sensor.scans(); });
+  if (first != sensors.end()) {
+    sheet.scanner = first->name, sheet.scanner_number = int(first - sensors.begin());
     sheet.columns = 2;  // three pictures beside each other are wide
   }
   return sheet;
@@ -165,7 +167,7 @@ const std::vector<RecordingFormat> kFormats{
 const std::vector<RecordingFormat>& recording_formats() { return kFormats; }
 
 bool is_wanted(const RecordingFormat& format, const Scenario& scenario) {
-  return scenario.outputs.*format.wanted && !(format.of_sensors && scenario.sensors.empty());
+  return scenario.outputs.*format.wanted && !(format.of_sensors && std::all_of(scenario.sensors.begin(), scenario.sensors.end(), scans));
 }
 
 const RecordingFormat& find_recording_format(const std::string& name) {

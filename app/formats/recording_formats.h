@@ -41,7 +41,7 @@ struct RecordingFormat {
   std::unique_ptr<Recorder> (*make)(const std::string& path, const RecordingInputs& inputs);
   double (*estimate)(const RecordedSize& size);  // largest size for one camera; unit: byte
   bool one_camera = false;                       // whether it holds a single camera
-  bool of_sensors = false;                       // whether it is only there where the mission has `sensors`
+  bool of_sensors = false;                       // whether it is only there where a sensor gives numbers
   std::string beside{};                          // a second, small file in the run's folder: "metadata.yaml"
 };
 

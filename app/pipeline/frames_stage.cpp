@@ -11,7 +11,6 @@
 #include "app/provenance/frame_journal.h"
 #include "app/scene/build_scene.h"
 #include "app/sensors/exact_depth.h"
-#include "app/sensors/reading_sensor.h"
 #include "app/sensors/sensor_suite.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
@@ -50,15 +49,10 @@ std::vector<std::string> names_of_cameras(const Scenario& scenario) {
   return names;
 }
 
-std::vector<std::string> names_of_lidars(const Scenario& scenario) {
+// Their channels among the hashes.
+std::vector<std::string> channels_of_sensors(const Scenario& scenario) {
   std::vector<std::string> names;
-  for (const LidarScenario& lidar : scenario.lidars) names.push_back(lidar.name);
-  return names;
-}
-
-std::vector<std::string> names_of_sensors(const Scenario& scenario) {
-  std::vector<std::string> names;
-  for (const SensorItem& sensor : scenario.sensors) names.push_back(sensor.name);
+  for (const SensorItem& sensor : scenario.sensors) names.push_back(sensor.name + (scans(sensor) ? "/points" : "/reading"));
   return names;
 }
 
@@ -113,8 +107,10 @@ Scene build_felt_scene(const Leg& leg, const ResolvedMission& mission, const See
                           });
 }
 
-// What a function is told of colours is drawn while the robot is driven: the recorded pictures are lit in the same way.
-bool senses_colours(const Scenario& scenario) {
+// What a function is told of colours is drawn while the robot is driven, and so is what a person sees: the recorded pictures
+// are lit in the same way.
+bool is_lit_live(const Scenario& scenario) {
+  if (scenario.robot_run.live_light) return true;
   for (const MountedCamera& camera : all_cameras(scenario))
     if (is_sensed(scenario, colour_sense(camera.name))) return true;
   return false;
@@ -127,7 +123,7 @@ Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen
                               leg.zero_ns);
   }
   if (seen.robots.moved.empty()) return build_scene(leg.scenario, mission.assets, pile);
-  if (senses_colours(leg.scenario)) return build_felt_scene(leg, mission, seen);
+  if (is_lit_live(leg.scenario)) return build_felt_scene(leg, mission, seen);
   return build_robot_scene(leg.scenario, mission.assets, pile, seen.robots.moved,
                            leg.scenario.start_ns);
 }
@@ -137,11 +133,11 @@ std::vector<std::unique_ptr<ExactDepth>> make_told_depths(const Leg& leg, const 
                                                           int threads) {
   const std::vector<MountedCamera> cameras = all_cameras(leg.scenario);
   std::vector<std::unique_ptr<ExactDepth>> depths(cameras.size());
-  std::shared_ptr<LidarWorld> world;
+  std::shared_ptr<RayWorld> world;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     // Rows of a shutter are drawn each at its own time.
     if (!is_sensed(leg.scenario, cameras[i].name) || cameras[i].camera.shutter.readout > 0) continue;
-    if (!world) world = std::make_shared<LidarWorld>(build_felt_scene(leg, mission, seen));
+    if (!world) world = std::make_shared<RayWorld>(build_felt_scene(leg, mission, seen));
     depths[i] = std::make_unique<ExactDepth>(cameras[i], camera_key(leg.scenario, cameras[i]), world, threads);
   }
   return depths;
@@ -159,7 +155,7 @@ PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Se
       [&](double fraction) { taking.report(fraction, folder, context); });
   const bool felt = !leg.window && !seen.robots.moved.empty();
   std::optional<Scene> felt_scene;
-  if (felt && (!leg.scenario.lidars.empty() || needs_rays(leg.scenario.sensors))) felt_scene = build_felt_scene(leg, mission, seen);
+  if (felt && casts_rays(leg.scenario.sensors)) felt_scene = build_felt_scene(leg, mission, seen);
   prepared.sensors = std::make_unique<SensorSuite>(
       leg.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before}, felt_scene ? *felt_scene : scene,
       *prepared.renderer, context.threads(), seen.robots.readings);
@@ -186,9 +182,7 @@ void take_samples(PreparedLeg& prepared, const Leg& leg, FrameSinks& sinks, cons
       recorded.hashes.add_robot(*robot);
     } else if (const auto* values = std::get_if<Reading>(&*sample)) {
       recorded.hashes.add_reading(*values);
-    } else if (const auto* scan = std::get_if<LidarScan>(&*sample)) {
-      recorded.hashes.add_lidar(*scan);
-      throw_if_stopped(folder.path());
+      if (values->scan) throw_if_stopped(folder.path());
     } else {
       Frame& frame = std::get<Frame>(*sample);
       if (!prepared.depths.empty() && prepared.depths[std::size_t(frame.sensor)])
@@ -273,7 +267,7 @@ RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& 
                              RunFolder& folder, RunContext& context) {
   GlContext gl({context.options.gl_device, context.threads()});
   RecordedFrames recorded;
-  recorded.hashes = FrameHashes(names_of_cameras(flight.flown), names_of_lidars(flight.flown), names_of_sensors(flight.flown));
+  recorded.hashes = FrameHashes(names_of_cameras(flight.flown), channels_of_sensors(flight.flown));
   recorded.environment = describe_environment(gl.info(), context.threads());
   record(flight, mission, {pile, robots}, gl, folder, context, recorded);
   return recorded;

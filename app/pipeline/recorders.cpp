@@ -10,7 +10,6 @@
 #include "io/recording/one_camera.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/system/output_files.h"
-#include "scripting/scenario/lidar_schema.h"
 
 namespace rubble {
 
@@ -49,17 +48,6 @@ ImuRecord record_of(const ImuScenario& imu, const std::string& carried) {
   record.frame_id = imu.frame_id.value_or(imu.is_rig() ? carried : imu.name + "_link");
   if (!imu.is_rig()) record.rig_from_imu = imu.rig_from_imu();
   record.model = imu.model;
-  return record;
-}
-
-LidarRecord record_of(const Scenario& scenario, std::size_t number) {
-  const LidarScenario& lidar = scenario.lidars[number];
-  LidarRecord record;
-  record.name = lidar.name;
-  record.topic = lidar_topic(scenario, number);
-  record.frame_id = lidar.frame_id.value_or(lidar.name + "_link");
-  record.rig_from_lidar = lidar.rig_from_lidar();
-  record.spec = lidar.spec();
   return record;
 }
 
@@ -112,12 +100,8 @@ Recording describe_recording(const Scenario& scenario, const AssetLibrary& asset
     recording.imus.push_back(record_of(imu, recording.frame_of(carrier)));
     recording.imus.back().carrier = carrier;
   }
-  for (std::size_t i = 0; i < scenario.lidars.size(); ++i) {
-    recording.lidars.push_back(record_of(scenario, i));
-    recording.lidars.back().carrier = frame_of(scenario.lidars[i].ride, scenario, robots);
-  }
   for (const SensorItem& sensor : scenario.sensors)
-    recording.sensors.push_back({sensor.name, sensor.ros_topic(), sensor.frame(), frame_of(sensor.ride, scenario, robots),
+    recording.sensors.push_back({sensor.name, topic_of(scenario.sensors, sensor), sensor.frame(), frame_of(sensor.ride, scenario, robots),
                                  sensor.carrier_from_sensor(), sensor.figures->clone()});
   recording.legend.labels = label_names(scenario, assets);
   for (const PieceState& piece : pile.pieces) {

@@ -48,7 +48,6 @@ std::vector<std::string> find_buried_sensors(const Scenario& scenario, const std
   for (const MountedCamera& camera : all_cameras(scenario))
     finder.look(scenario.cameras.empty() ? "camera" : "cameras." + camera.name, camera.ride,
                 camera.is_rig() ? Pose() : camera.rig_from_camera());
-  for (const LidarScenario& lidar : scenario.lidars) finder.look("lidars." + lidar.name, lidar.ride, lidar.rig_from_lidar());
   for (const SensorItem& sensor : scenario.sensors)
     if (sensor.figures->casts_rays()) finder.look(sensor.key(), sensor.ride, sensor.carrier_from_sensor());
   return finder.take();

@@ -27,7 +27,7 @@ std::string camera_key(const Scenario& scenario, const MountedCamera& camera) {
   return scenario.cameras.empty() ? "camera" : "cameras." + camera.name;
 }
 
-ExactDepth::ExactDepth(const MountedCamera& camera, const std::string& key, std::shared_ptr<LidarWorld> world,
+ExactDepth::ExactDepth(const MountedCamera& camera, const std::string& key, std::shared_ptr<RayWorld> world,
                        int threads)
     : rays_(make_rays(camera, key)), world_(std::move(world)), pool_(threads) {}
 

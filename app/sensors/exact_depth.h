@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kernel/base/parallel.h"
-#include "render/lidar/depth_rays.h"
+#include "render/rays/depth_rays.h"
 #include "scripting/scenario/scenario.h"
 
 namespace rubble {
@@ -18,7 +18,7 @@ std::string camera_key(const Scenario& scenario, const MountedCamera& camera);
 class ExactDepth {
  public:
   // key: of the camera in the mission. Throws InputError for a lens that is no pinhole.
-  ExactDepth(const MountedCamera& camera, const std::string& key, std::shared_ptr<LidarWorld> world, int threads);
+  ExactDepth(const MountedCamera& camera, const std::string& key, std::shared_ptr<RayWorld> world, int threads);
 
   const Intrinsics& intrinsics() const { return rays_.intrinsics(); }
   // As Frame::depth, of everything where it is at that stamp.
@@ -26,7 +26,7 @@ class ExactDepth {
 
  private:
   DepthRays rays_;
-  std::shared_ptr<LidarWorld> world_;
+  std::shared_ptr<RayWorld> world_;
   ThreadPool pool_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "app/sensors/build_camera.h"
 #include "app/sensors/robot_readings.h"
+#include "app/sensors/sensor.h"
 #include "render/renderer.h"
 #include "render/scene/sample.h"
 #include "scripting/scenario/scenario.h"
@@ -21,7 +22,7 @@ struct SensorBegin {
 };
 
 // All sensors on the rig and on links of robots, and the readings of robots, merged by stamp. Samples with equal stamps
-// come in this order: robots, inertial units, LiDARs, other sensors, cameras in the order of all_cameras(). The renderer and the
+// come in this order: robots, inertial units, other sensors in the order of the scenario, cameras in the order of all_cameras(). The renderer and the
 // readings must outlive the suite.
 class SensorSuite {
  public:
@@ -36,8 +37,15 @@ class SensorSuite {
   std::optional<Sample> take();
 
  private:
+  struct Member {
+    std::unique_ptr<Sensor> sensor;
+    std::int64_t last_ns = 0;  // no sample begins later
+    bool taken = false;        // whether it has given one
+
+    bool is_over(const Sensor::Needs& next) const;
+  };
   std::vector<int> frames_;
-  std::vector<std::unique_ptr<Sensor>> sensors_;
+  std::vector<Member> members_;
 };
 
 }  // namespace rubble

@@ -1,17 +1,11 @@
-// What cameras on robots show while the robots are driven: the pictures of their sensors, developed.
+// What cameras on robots show while the robots are driven: a renderer of its own, of the scene that goes on.
 //
-// A picture is drawn when its exposure has ended. It has the bits of the recorded one, whose scene is lit in the same way
-// then: build_live_scene().
+// Its pictures have the bits of the recorded ones, whose scene is lit in the same way then: build_live_scene().
 #pragma once
 
-#include <memory>
-#include <vector>
-
-#include "app/session/live_sensors.h"
 #include "render/gl/gl_context.h"
 #include "render/renderer.h"
 #include "render/scene/scene.h"
-#include "scripting/scenario/scenario.h"
 
 namespace rubble {
 
@@ -28,9 +22,7 @@ class LiveColours {
   // renderer. Throws RunError as GlContext and Renderer do.
   LiveColours(const Scene& scene, const LiveColoursOptions& options);
 
-  // Frames of colour alone. number: among all_cameras(). This must outlive the sensor. Throws InputError where no robot
-  // carries it.
-  std::unique_ptr<LiveSensor> make_eye(const LiveSensorParts& parts, std::size_t number);
+  Renderer& renderer() { return renderer_; }
 
  private:
   GlContext gl_;

@@ -9,9 +9,16 @@
 #include "kernel/world/world_robots.h"
 
 namespace rubble {
+namespace {
+
+bool feel_contacts(const std::vector<SensorItem>& sensors) {
+  return std::any_of(sensors.begin(), sensors.end(), [](const SensorItem& s) { return s.figures->feels_contacts(); });
+}
+
+}  // namespace
 
 PoseHistory::PoseHistory(const Scenario& scenario, const std::vector<MissionRobot>& robots, double step)
-    : names_(robot_names(scenario.robots)), robots_(robots), start_ns_(scenario.start_ns), step_(step), felt_(!scenario.sensors.empty()) {
+    : names_(robot_names(scenario.robots)), robots_(robots), start_ns_(scenario.start_ns), step_(step), felt_(feel_contacts(scenario.sensors)) {
   const auto add_link = [&](const Carrier& carrier, const std::string& key) {
     const auto same = [&](const LinkWay& link) { return link.carrier == carrier; };
     if (!carrier.on() || std::any_of(ways_.links.begin(), ways_.links.end(), same)) return;
@@ -25,7 +32,6 @@ PoseHistory::PoseHistory(const Scenario& scenario, const std::vector<MissionRobo
     ways_.ride = mounts_.back().way;
   }
   for (const MountedCamera& camera : scenario.cameras) add_link(camera.ride, "cameras." + camera.name + ".ride");
-  for (const LidarScenario& lidar : scenario.lidars) add_link(lidar.ride, "lidars." + lidar.name + ".ride");
   add_link(scenario.imu.ride, "imu.ride");
   for (const ImuScenario& imu : scenario.imus) add_link(imu.ride, "imus." + imu.name + ".ride");
   for (const SensorItem& sensor : scenario.sensors) add_link(sensor.ride, sensor.key() + ".ride");
@@ -39,12 +45,6 @@ void PoseHistory::add(const Carrier& carrier, const Pose& link_from_carrier, con
   mount.link_from_rider = mount.link_from_rider * link_from_carrier;
   mount.way = std::make_shared<SimulatedPath>(step_);
   mounts_.push_back(std::move(mount));
-}
-
-const std::shared_ptr<const MotionPath>& PoseHistory::way_of(const Carrier& carrier, const std::string& key) const {
-  const std::shared_ptr<const MotionPath>& way = ways_.path_of(carrier, ways_.ride);
-  if (way) return way;
-  throw InputError({"", 0, key, "no robot carries it", "`ride`, or `trajectory.ride` for the rig that it is on", "", ""});
 }
 
 Pose PoseHistory::place(const Mount& mount) const {

@@ -32,8 +32,6 @@ class PoseHistory {
 
   // Of the rig and of each link that carries sensors of its own, and the contacts of links; they grow.
   const RobotReadings& ways() const { return ways_; }
-  // The way of what is on `carrier`, or on the rig. Throws InputError, with the key of the sensor, where no robot carries it.
-  const std::shared_ptr<const MotionPath>& way_of(const Carrier& carrier, const std::string& key) const;
   Pose world_from_rig() const;                                             // now; the rig must be on a robot
   // Now, of what carries a sensor: the rig where `carrier` names no robot. Nothing: no robot carries it.
   std::optional<Pose> world_from(const Carrier& carrier) const;

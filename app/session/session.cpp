@@ -7,9 +7,8 @@
 #include "app/control/robot_control.h"
 #include "app/control/robot_senses.h"
 #include "app/control/script_control.h"
-#include "app/sensors/reading_sensor.h"
+#include "app/sensors/camera_sensor.h"
 #include "app/session/live_colours.h"
-#include "app/session/live_sensors.h"
 #include "kernel/world/world_robots.h"
 
 namespace rubble {
@@ -89,9 +88,9 @@ void Session::start() {
   make_sensors();
 }
 
-// Units of inertia, LiDARs, other kinds, depth and colours: the order of samples whose stamps are equal.
+// Units of inertia, other kinds, depth and colours: the order of samples whose stamps are equal.
 void Session::make_sensors() {
-  auto [lidars, readings, depths, colours, imus] = script_ ? senses_->sensed() : RobotSenses::Sensed();
+  auto [readings, depths, colours, imus] = script_ ? senses_->sensed() : RobotSenses::Sensed();
   const auto add = [](std::vector<std::size_t>& list, const std::vector<std::size_t>& more) {
     for (const std::size_t i : more)
       if (std::find(list.begin(), list.end(), i) == list.end()) list.push_back(i);
@@ -99,28 +98,27 @@ void Session::make_sensors() {
   };
   if (options_.observed) {
     add(imus, find_carried(all_imus(scenario_), history_.ways()));
-    add(lidars, find_carried(scenario_.lidars, history_.ways()));
     add(readings, find_carried(scenario_.sensors, history_.ways()));
   }
   if (options_.depth) add(depths, find_carried(all_cameras(scenario_), history_.ways()));
-  const bool rays = !lidars.empty() || !depths.empty() || (!readings.empty() && needs_rays(scenario_.sensors));
+  const bool rays = !depths.empty() || (!readings.empty() && casts_rays(scenario_.sensors));
   if (imus.empty() && readings.empty() && !rays && colours.empty()) return;
   Scene scene;
   if ((rays && !world_of_rays_) || (!colours.empty() && !colours_))
     scene = build_live_scene(scenario_, mission_.assets, pile_, seen_,
                              [this](int id, std::int64_t stamp_ns) { return history_.pose_of(id, stamp_ns); });
-  if (rays && !world_of_rays_) world_of_rays_ = std::make_shared<LidarWorld>(scene);
-  const LiveSensorParts parts{scenario_, history_, world_of_rays_, Medium(scenario_.air, scenario_.seed), context_.threads()};
-  for (const std::size_t i : imus) sensors_.push_back(make_live_imu(parts, i));
-  for (const std::size_t i : lidars) sensors_.push_back(make_live_lidar(parts, i));
-  for (const std::size_t i : readings) sensors_.push_back(make_live_reading(parts, i));
-  for (const std::size_t i : depths) sensors_.push_back(make_live_depth(parts, i));
+  if (rays && !world_of_rays_) world_of_rays_ = std::make_shared<RayWorld>(scene);
+  const SensorParts parts{scenario_, scenario_.seed, history_.ways(), history_.ways().ride, world_of_rays_,
+                          std::make_shared<const Medium>(scenario_.air, scenario_.seed), context_.threads()};
+  for (const std::size_t i : imus) sensors_.push_back(make_imu(parts, i));
+  for (const std::size_t i : readings) sensors_.push_back(make_sensor(parts, i));
+  for (const std::size_t i : depths) sensors_.push_back(make_depth_sensor(parts, i));
   if (!colours.empty() && !colours_)
     colours_ = std::make_unique<LiveColours>(
         scene, LiveColoursOptions{context_.options.gl_device, context_.threads(), [this](double done) {
                                     context_.progress.update(0, "light " + std::to_string(int(100 * done)) + " %");
                                   }});
-  for (const std::size_t i : colours) sensors_.push_back(colours_->make_eye(parts, i));
+  for (const std::size_t i : colours) sensors_.push_back(make_riding_camera(parts, i, colours_->renderer()));
 }
 
 void Session::step() {
@@ -133,7 +131,7 @@ void Session::measure() {
   const std::int64_t way = history_.ways_known_until(), track = history_.track_known_until();
   std::int64_t needed = way;
   for (const auto& sensor : sensors_) {
-    LiveSensor::Needs needs = sensor->needs();
+    Sensor::Needs needs = sensor->needs();
     for (; needs.way_until <= way && needs.scene_until <= track; needs = sensor->needs()) {
       Sample sample = sensor->take();
       senses_->hear(sample);

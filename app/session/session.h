@@ -26,14 +26,14 @@
 namespace rubble {
 
 class LiveColours;
-class LiveSensor;
-class LidarWorld;
+class RayWorld;
 class RobotSenses;
 class ScriptControl;
+class Sensor;
 
 // What is measured besides what the functions of robots are told.
 struct SessionOptions {
-  bool observed = false;  // robots, inertial units and LiDARs on robots, for observe()
+  bool observed = false;  // robots and the sensors on them, for observe()
   bool depth = false;     // and the exact depth of the cameras on robots
   bool recorded = false;  // all is kept, for finish()
 };
@@ -78,6 +78,8 @@ class Session {
   std::optional<Pose> world_from(const Carrier& carrier) const { return history_.world_from(carrier); }
   // From outside, on a piece or a link, before the next step: see World::apply_impulse(). No mission says this again.
   void apply_impulse(int piece, const Vec3& point, const Vec3& impulse) { run_->apply_impulse(piece, point, impulse); }
+  // Ways of what carries sensors so far, on to now: between the last two steps they may still change a little.
+  const RobotReadings& ways() const { return history_.ways(); }
   // The scene with everything where it is when it is drawn. drawn: the scenario of the camera. It must not outlive this.
   Scene build_scene(const Scenario& drawn) const;
 
@@ -105,9 +107,9 @@ class Session {
   std::vector<RobotLog> logs_;
   std::unique_ptr<RobotSenses> senses_;
   std::unique_ptr<ScriptControl> script_;
-  std::shared_ptr<LidarWorld> world_of_rays_;
+  std::shared_ptr<RayWorld> world_of_rays_;
   std::unique_ptr<LiveColours> colours_;
-  std::vector<std::unique_ptr<LiveSensor>> sensors_;
+  std::vector<std::unique_ptr<Sensor>> sensors_;
   std::vector<Sample> measured_;  // for observe()
 };
 

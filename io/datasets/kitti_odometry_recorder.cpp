@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <optional>
+#include <memory>
 
 #include "io/base/folder_writer.h"
 #include "io/base/little_endian.h"
@@ -30,9 +30,9 @@ std::array<double, 12> projection_of(const Intrinsics& k, double right) {
 }
 
 // Where the sensor was at a time of its scan; the list has its pose every kMotionStep.
-Pose scanner_at(const LidarScan& scan, std::int64_t since_ns) {
-  const std::vector<Pose>& poses = scan.world_from_lidar;
-  const std::int64_t step = LidarScan::kMotionStep;
+Pose scanner_at(const RangeScan& scan, std::int64_t since_ns) {
+  const std::vector<Pose>& poses = scan.world_from_sensor;
+  const std::int64_t step = RangeScan::kMotionStep;
   const auto last = std::int64_t(poses.size()) - 1;
   const std::int64_t i = std::clamp<std::int64_t>(since_ns / step, 0, std::max<std::int64_t>(last - 1, 0));
   if (last < 1) return poses.front();
@@ -42,11 +42,11 @@ Pose scanner_at(const LidarScan& scan, std::int64_t since_ns) {
 }
 
 // The echoes in the frame of the sensor at one time, as if it had not moved.
-std::string still_scan(const LidarScan& scan, std::int64_t stamp_ns) {
+std::string still_scan(const RangeScan& scan, std::int64_t stamp_ns) {
   const Pose from_world = scanner_at(scan, stamp_ns - scan.stamp_ns).inverse();
   std::string bytes;
   bytes.reserve(16 * scan.points.size());
-  for (const LidarPoint& p : scan.points) {
+  for (const ScanPoint& p : scan.points) {
     const auto since_ns = std::int64_t(double(p.time) * 1e9 + 0.5);
     const Vec3 still = from_world * (scanner_at(scan, since_ns) * Vec3{p.x, p.y, p.z});
     for (const double value : {still.x, still.y, still.z}) put(bytes, float(value));
@@ -64,9 +64,9 @@ class KittiOdometryRecorder : public Recorder {
         folder_(path, folders(), threads),
         path_(path) {}
 
-  void write_lidar(const LidarScan& scan) override {
-    if (scan.sensor != scanner_) return;
-    scan_ = scan;
+  void write_reading(const Reading& reading) override {
+    if (reading.sensor != scanner_) return;
+    scan_ = reading.scan;
     scan_is_new_ = true;
   }
 
@@ -87,7 +87,7 @@ class KittiOdometryRecorder : public Recorder {
     poses_ += kitti_line(pose_rows(first_from_world_ * world_from_optical));
     if (scanner_ < 0) return;
     folder_.add(kSequence + "velodyne" + name + ".bin",
-                [scan = *scan_, stamp = frame.stamp_ns] { return still_scan(scan, stamp); });
+                [scan = scan_, stamp = frame.stamp_ns] { return still_scan(*scan, stamp); });
   }
 
   void finish() override {
@@ -99,8 +99,10 @@ class KittiOdometryRecorder : public Recorder {
 
  private:
   static int scanner_of(const Recording& recording) {
-    for (std::size_t i = 0; i < recording.lidars.size(); ++i)
-      if (recording.lidars[i].spec.pattern != LidarPattern::planar) return int(i);
+    for (std::size_t i = 0; i < recording.sensors.size(); ++i) {
+      const auto spec = recording.sensors[i].format->scan_spec();
+      if (spec && !spec->planar()) return int(i);
+    }
     return -1;
   }
 
@@ -121,7 +123,7 @@ class KittiOdometryRecorder : public Recorder {
   bool covers(const Frame& frame) const {
     if (!scan_is_new_) return false;
     const std::int64_t since = frame.stamp_ns - scan_->stamp_ns;
-    return since >= 0 && since <= std::int64_t(scan_->world_from_lidar.size()) * LidarScan::kMotionStep;
+    return since >= 0 && since <= std::int64_t(scan_->world_from_sensor.size()) * RangeScan::kMotionStep;
   }
 
   void add_pictures(const Frame& frame, const std::string& name) {
@@ -148,12 +150,12 @@ class KittiOdometryRecorder : public Recorder {
     calibration_ += "Tr: " + kitti_line(pose_rows(optical_from_scanner));
   }
 
-  int scanner_;  // number of the LiDAR; -1: none
+  int scanner_;  // number of the sensor that scans; -1: none
   Channels channels_;
   FrameOrder order_;
   FolderWriter folder_;
   std::string path_;  // for messages
-  std::optional<LidarScan> scan_;  // the last one
+  std::shared_ptr<const RangeScan> scan_;  // the last one
   bool scan_is_new_ = false;       // since the last picture
   int count_ = 0;                  // pictures so far
   int missing_ = -1;               // index of the first picture without a scan

@@ -31,9 +31,11 @@ bool has_file(const std::string& path) {
 // A sample beside frames, read when it is its turn.
 struct BesideSample {
   std::int64_t stamp_ns = 0;
-  int rank = 0;  // of samples with one stamp: inertial units, LiDARs, other sensors
+  int rank = 0;  // of samples with one stamp: inertial units, then the other sensors in their order
   std::function<Sample()> read;
 };
+
+int rank_of_sensor(std::size_t number) { return int(number) + 1; }
 
 // The folder of one camera, with its tables.
 struct FramesFolder {
@@ -115,22 +117,29 @@ void DatasetPlayer::State::add_imus(const PlayedSamples& wanted) {
 }
 
 void DatasetPlayer::State::add_scans() {
-  for (std::size_t i = 0; i < dataset.recording.lidars.size(); ++i) {
-    const LidarRecord& lidar = dataset.recording.lidars[i];
-    if (!has_file(dataset.folder + "/pcd/" + lidar.name)) fail_missing(dataset.folder + "/pcd/" + lidar.name, "scans", "pcd");
-    const auto scans = std::make_shared<const RecordedScans>(dataset.folder + "/pcd", lidar, int(i));
+  for (std::size_t i = 0; i < dataset.recording.sensors.size(); ++i) {
+    const SensorRecord& sensor = dataset.recording.sensors[i];
+    if (!sensor.scans()) continue;
+    const std::string path = dataset.folder + "/pcd/" + sensor.name;
+    if (!has_file(path)) fail_missing(path, "scans", "pcd");
+    if (!sensor.format->scan_spec())
+      throw InputError({path, 0, "", "the scans cannot be read back", "a sensor that states where its rays go", "one of another kind", ""});
+    const auto scans = std::make_shared<const RecordedScans>(dataset.folder + "/pcd", sensor);
     for (std::size_t k = 0; k < scans->stamps_ns().size(); ++k)
-      beside.push_back({scans->stamps_ns()[k], 1, [scans, k] { return Sample(scans->read(k)); }});
+      beside.push_back({scans->stamps_ns()[k], rank_of_sensor(i), [scans, k, i, stamp = scans->stamps_ns()[k]] {
+                          return Sample(Reading{int(i), stamp, {}, scans->read(k)});
+                        }});
   }
 }
 
 void DatasetPlayer::State::add_readings() {
   for (std::size_t i = 0; i < dataset.recording.sensors.size(); ++i) {
     const SensorRecord& sensor = dataset.recording.sensors[i];
+    if (sensor.scans()) continue;
     const std::string path = dataset.folder + "/sensors/" + sensor.name + ".csv";
     if (!has_file(path)) fail_missing(path, "readings of " + sensor.name, "sensors");
     for (const Reading& reading : read_reading_table(path, sensor.format->columns().size(), int(i)))
-      beside.push_back({reading.stamp_ns, 2, [reading] { return Sample(reading); }});
+      beside.push_back({reading.stamp_ns, rank_of_sensor(i), [reading] { return Sample(reading); }});
   }
 }
 

@@ -2,7 +2,7 @@
 // recorder can write them in another format.
 //
 // Frames come from `frames`, which has every bit of them, else from mission.mcap or mission.bag; inertial readings from
-// there as well; scans of LiDARs from `pcd`, with their true motion; readings of other sensors from `sensors`.
+// there as well; scans from `pcd`, with their true motion; readings of other sensors from `sensors`.
 #pragma once
 
 #include <functional>

@@ -125,8 +125,7 @@ std::vector<Reading> read_reading_table(const std::string& path, std::size_t col
   return readings;
 }
 
-RecordedScans::RecordedScans(const std::string& folder, const LidarRecord& lidar, int sensor)
-    : folder_(folder + "/" + lidar.name), spec_(lidar.spec), sensor_(sensor) {
+RecordedScans::RecordedScans(const std::string& folder, const SensorRecord& sensor) : folder_(folder + "/" + sensor.name), spec_(sensor.format->scan_spec()) {
   const NumberTable stamps = read_number_table(folder_ + "/stamps.txt", ' ', 2, 1);
   for (std::size_t i = 0; i < stamps.rows.size(); ++i) {
     stamps_ns_.push_back(seconds(stamps, i, 0));
@@ -151,7 +150,7 @@ Pose RecordedScans::pose_at(std::int64_t stamp_ns) const {
   return {portable::slerp(a.rotation, b.rotation, share), a.translation + (b.translation - a.translation) * share};
 }
 
-LidarScan RecordedScans::read(std::size_t index) const {
+std::shared_ptr<const RangeScan> RecordedScans::read(std::size_t index) const {
   const std::string path = folder_ + "/" + files_[index], bytes = read_file(path);
   constexpr std::string_view kFields = "FIELDS x y z intensity ring time\nSIZE 4 4 4 4 2 4\nTYPE F F F F U F\n", kData = "\nDATA binary\n";
   const std::size_t data = bytes.find(kData);
@@ -162,22 +161,22 @@ LidarScan RecordedScans::read(std::size_t index) const {
   const std::string count = std::to_string(left.size() / kPoint);
   if (left.size() % kPoint != 0 || bytes.find("\nPOINTS " + count + "\n") == std::string::npos)
     throw InputError({path, 0, "", "the scan is damaged", "as many points as its header states", std::to_string(left.size()) + " bytes of points", ""});
-  LidarScan scan;
+  RangeScan scan;
+  scan.spec = spec_;
   scan.stamp_ns = stamps_ns_[index];
-  scan.sensor = sensor_;
   scan.index = int(index);
   while (!left.empty()) {
-    LidarPoint p;
+    ScanPoint p;
     for (float* value : {&p.x, &p.y, &p.z, &p.intensity}) take(left, *value);
     take(left, p.ring), take(left, p.time);
-    const std::int64_t delay = p.ring < spec_.delays_ns.size() ? spec_.delays_ns[p.ring] : 0;
-    p.column = std::uint16_t(std::llround((double(p.time) * 1e9 - double(delay)) / double(spec_.column_ns)));
+    const std::int64_t delay = p.ring < spec_->delays_ns.size() ? spec_->delays_ns[p.ring] : 0;
+    p.column = std::uint16_t(std::llround((double(p.time) * 1e9 - double(delay)) / double(spec_->column_ns)));
     scan.points.push_back(p);
   }
-  const std::int64_t delay = spec_.delays_ns.empty() ? 0 : *std::max_element(spec_.delays_ns.begin(), spec_.delays_ns.end());
-  const std::int64_t steps = ((spec_.columns - 1) * spec_.column_ns + delay) / LidarScan::kMotionStep + 1;
-  for (std::int64_t i = 0; i <= steps; ++i) scan.world_from_lidar.push_back(pose_at(scan.stamp_ns + i * LidarScan::kMotionStep));
-  return scan;
+  const std::int64_t delay = spec_->delays_ns.empty() ? 0 : *std::max_element(spec_->delays_ns.begin(), spec_->delays_ns.end());
+  const std::int64_t steps = ((spec_->columns - 1) * spec_->column_ns + delay) / RangeScan::kMotionStep + 1;
+  for (std::int64_t i = 0; i <= steps; ++i) scan.world_from_sensor.push_back(pose_at(scan.stamp_ns + i * RangeScan::kMotionStep));
+  return std::make_shared<const RangeScan>(std::move(scan));
 }
 
 }  // namespace rubble

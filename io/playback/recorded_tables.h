@@ -33,21 +33,20 @@ std::map<std::int64_t, Pose> read_tum_poses(const std::string& path);
 // sensors/NAME.csv.
 std::vector<Reading> read_reading_table(const std::string& path, std::size_t columns, int sensor);
 
-// The scans of a LiDAR: the folder pcd/NAME.
+// The scans of a sensor: the folder pcd/NAME.
 class RecordedScans {
  public:
-  // sensor: its number. Throws InputError: a list is missing or damaged.
-  RecordedScans(const std::string& folder, const LidarRecord& lidar, int sensor);
+  // sensor: its format states where the rays go. Throws InputError: a list is missing or damaged.
+  RecordedScans(const std::string& folder, const SensorRecord& sensor);
   const std::vector<std::int64_t>& stamps_ns() const { return stamps_ns_; }
   // Throws InputError: the file is missing, damaged, or was not written by Rubble.
-  LidarScan read(std::size_t index) const;
+  std::shared_ptr<const RangeScan> read(std::size_t index) const;
 
  private:
   Pose pose_at(std::int64_t stamp_ns) const;
 
   std::string folder_;
-  LidarSpec spec_;
-  int sensor_;
+  std::shared_ptr<const LidarSpec> spec_;  // never null
   std::vector<std::int64_t> stamps_ns_, motion_ns_;
   std::vector<std::string> files_;
   std::vector<Pose> motion_;  // of the sensor in the world, by motion_ns_

@@ -143,12 +143,12 @@ std::string imu(Version version, const Header& header, const ImuSample& sample,
   return out.take();
 }
 
-std::string point_cloud(Version version, const Header& header, const std::vector<LidarPoint>& points) {
+std::string point_cloud(Version version, const Header& header, const std::vector<ScanPoint>& points) {
   const auto count = static_cast<std::uint32_t>(points.size());
   std::string data(points.size() * kPointStep, '\0');
   for (std::size_t i = 0; i < points.size(); ++i) {
     char* const at = data.data() + i * kPointStep;
-    const LidarPoint& p = points[i];
+    const ScanPoint& p = points[i];
     const float place[] = {p.x, p.y, p.z, p.intensity};
     std::memcpy(at, place, sizeof place);
     std::memcpy(at + kPointFields[4].offset, &p.ring, sizeof p.ring);
@@ -173,11 +173,11 @@ std::string point_cloud(Version version, const Header& header, const std::vector
   return out.take();
 }
 
-std::string laser_scan(Version version, const Header& header, const LidarSpec& spec,
-                       const std::vector<LidarPoint>& points) {
+std::string laser_scan(Version version, const Header& header, const RangeScan& scan) {
+  const auto& spec = *scan.spec;
   const auto columns = static_cast<std::size_t>(spec.columns);
   std::vector<float> ranges(columns, std::numeric_limits<float>::infinity()), intensities(columns, 0);
-  for (auto p = points.rbegin(); p != points.rend(); ++p) {
+  for (auto p = scan.points.rbegin(); p != scan.points.rend(); ++p) {
     ranges.at(p->column) = std::sqrt(p->x * p->x + p->y * p->y + p->z * p->z);
     intensities[p->column] = p->intensity;
   }

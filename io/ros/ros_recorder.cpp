@@ -41,7 +41,6 @@ class RosRecorder : public Recorder {
         recording_(options.recording),
         order_(path, channels_of(options.recording)),
         imu_counts_(options.recording.imus.size()),
-        scan_counts_(options.recording.lidars.size()),
         reading_counts_(options.recording.sensors.size()) {
     for (CameraRecord& camera : recording_.cameras)
       camera.channels.truth = floats_first(camera.channels.truth);
@@ -90,17 +89,6 @@ class RosRecorder : public Recorder {
       early_.push_back(sample);
   }
 
-  void write_lidar(const LidarScan& scan) override {
-    tick(scan.stamp_ns);
-    const auto i = std::size_t(scan.sensor);
-    const LidarRecord& lidar = recording_.lidars.at(i);
-    const ros::Header stamped{scan_counts_[i]++, scan.stamp_ns, lidar.frame_id};
-    file_->write(lidars_[i], scan.stamp_ns,
-                 lidar.spec.pattern == LidarPattern::planar
-                     ? ros::laser_scan(version_, stamped, lidar.spec, scan.points)
-                     : ros::point_cloud(version_, stamped, scan.points));
-  }
-
   void write_reading(const Reading& reading) override {
     tick(reading.stamp_ns);
     const auto i = std::size_t(reading.sensor);
@@ -139,10 +127,6 @@ class RosRecorder : public Recorder {
   void add_other_sensors() {
     for (const ImuRecord& imu : recording_.imus)
       imus_.push_back(file_->add(imu.topic, ros::kImu, false));
-    for (const LidarRecord& lidar : recording_.lidars) {
-      const bool planar = lidar.spec.pattern == LidarPattern::planar;
-      lidars_.push_back(file_->add(lidar.topic, planar ? ros::kLaserScan : ros::kPointCloud, false));
-    }
     for (const SensorRecord& sensor : recording_.sensors) {
       std::vector<std::uint32_t>& topics = sensors_.emplace_back();
       for (const ReadingFormat::Topic& topic : sensor.format->topics())
@@ -235,8 +219,6 @@ class RosRecorder : public Recorder {
     if (recording_.mount)
       fixed.push_back({recording_.rig, recording_.mount->parent_from_rig, recording_.mount->parent});
     robots_->add_transforms(fixed);
-    for (const LidarRecord& lidar : recording_.lidars)
-      fixed.push_back({lidar.frame_id, lidar.rig_from_lidar, recording_.frame_of(lidar.carrier)});
     for (const SensorRecord& sensor : recording_.sensors)
       fixed.push_back({sensor.frame_id, sensor.rig_from_sensor, recording_.frame_of(sensor.carrier)});
     send(tf_static_, frame,
@@ -332,12 +314,11 @@ class RosRecorder : public Recorder {
   std::int64_t last_ns_ = -1;              // of the last instant
   std::int64_t clock_ns_ = -1;             // of the last tick
   std::vector<std::uint32_t> imu_counts_;   // readings of each unit
-  std::vector<std::uint32_t> scan_counts_;  // scans of each LiDAR
   std::vector<std::uint32_t> reading_counts_;  // of each other sensor
   // Numbers of the topics.
   std::uint32_t clock_ = 0, tf_static_ = 0, tf_ = 0, pose_ = 0, legend_ = 0;
   std::vector<CameraTopics> cameras_;
-  std::vector<std::uint32_t> imus_, lidars_;
+  std::vector<std::uint32_t> imus_;
   std::vector<std::vector<std::uint32_t>> sensors_;
   std::unique_ptr<RobotTopics> robots_;
   std::vector<RobotSample> early_;  // that came before the first frame

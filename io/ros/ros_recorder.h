@@ -11,7 +11,7 @@
 //   /camera/right/image_raw, .../camera_info   in camera_right_optical_frame; P[3] = -fx baseline
 //   /camera/events              dvs_msgs/EventArray, at the frame's stamp, those since the one before
 //   /imu                        sensor_msgs/Imu, each at its own stamp
-//   /points                     sensor_msgs/PointCloud2, a scan of a LiDAR at the stamp of its first ray
+//   /points                     sensor_msgs/PointCloud2, a scan at the stamp of its first ray
 //   /scan                       sensor_msgs/LaserScan, of a 2-D scanner
 //   /NAME                       other sensors, in the messages of their kinds (docs/reference/sensors.md)
 //   /ground_truth/depth/image   32FC1, m: exact, where the depth above is that of a sensor

@@ -38,7 +38,7 @@ std::string cell(std::string text) {
   return text;
 }
 
-// Texts name pages as the tree does: "docs/reference/lidar.md". The reference links to them.
+// Texts name pages as the tree does: "docs/reference/robots.md". The reference links to them.
 std::string linked(const std::string& text) {
   static const std::string kFolder = "docs/", kEnding = ".md";
   std::string out;

@@ -7,7 +7,6 @@
 
 #include "kernel/base/portable_math.h"
 #include "render/streams/image_streams.h"
-#include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/optics_schema.h"
 #include "scripting/scenario/scenario_schema.h"
 #include "scripting/schema/schema_json.h"
@@ -194,7 +193,6 @@ void check_labels(const Scenario& scenario, SensorNames& names) {
       names.label(at, camera.name + "_ground_truth_depth");
   }
   for (const ImuScenario& imu : all_imus(scenario)) names.label(scenario.imus.empty() ? "imu" : "imus." + imu.name, imu.name);
-  for (const LidarScenario& lidar : scenario.lidars) names.label("lidars." + lidar.name, lidar.name);
   for (const SensorItem& sensor : scenario.sensors) names.label(sensor.key(), sensor.name);
   const std::vector<std::string> robots = robot_names(scenario.robots);
   for (std::size_t i = 0; i < robots.size(); ++i)
@@ -244,18 +242,6 @@ void check_all_names(const Scenario& scenario, SensorNames& names, std::vector<D
   }
   reserve_robot_names(scenario, true, names);  // a camera's topics lie below its own: no clash with these
   check_imu_names(scenario, names, mistakes);
-  for (std::size_t i = 0; i < scenario.lidars.size(); ++i) {
-    const LidarScenario& lidar = scenario.lidars[i];
-    const std::string at = "lidars." + lidar.name;
-    if (!is_name(lidar.name)) {
-      mistakes.push_back({"", 0, at, "not a name of a LiDAR",
-                          "a lower-case letter, then such letters, digits and underscores, 32 at most",
-                          "\"" + lidar.name + "\"", ""});
-      continue;
-    }
-    names.check(lidar.topic ? at + ".topic" : at, lidar_topic(scenario, i), true);
-    names.check(lidar.frame_id ? at + ".frame_id" : at, lidar.frame_id.value_or(lidar.name + "_link"), false);
-  }
   for (const SensorItem& sensor : scenario.sensors) {
     if (!is_name(sensor.name)) {
       mistakes.push_back({"", 0, sensor.key(), "not a name of a sensor",
@@ -263,9 +249,10 @@ void check_all_names(const Scenario& scenario, SensorNames& names, std::vector<D
                           "\"" + sensor.name + "\"", ""});
       continue;
     }
-    names.check(sensor.topic ? sensor.key() + ".topic" : sensor.key(), sensor.ros_topic(), true);
+    const std::string topic = topic_of(scenario.sensors, sensor);
+    names.check(sensor.topic ? sensor.key() + ".topic" : sensor.key(), topic, true);
     names.check(sensor.frame_id ? sensor.key() + ".frame_id" : sensor.key(), sensor.frame(), false);
-    if (sensor.figures->topics().size() > 1) names.reserve_below(sensor.ros_topic(), sensor.key());
+    if (sensor.figures->topics().size() > 1) names.reserve_below(topic, sensor.key());
   }
 }
 

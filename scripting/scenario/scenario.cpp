@@ -4,9 +4,9 @@
 
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
+#include "scripting/robots/robot_kind.h"
 #include "scripting/scenario/camera_mistakes.h"
 #include "scripting/scenario/pile_schema.h"
-#include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/scenario_schema.h"
 #include "scripting/scenario/sky_schema.h"
 #include "scripting/scenario/surroundings_schema.h"
@@ -125,13 +125,13 @@ void check_kitti_odometry(const Scenario& scenario, std::vector<Diagnostic>& mis
       mistakes.push_back({"", 0, at + ".lens", "outputs.kitti_odometry has no place for a distorted lens",
                           "a pinhole without distortion", "a lens with distortion", ""});
     const double rate = camera.rate_hz.value_or(scenario.trajectory.rate_hz);
-    for (const LidarScenario& lidar : scenario.lidars) {
-      if (lidar.planar()) continue;
-      const double scans = lidar.spec().rate_hz;
-      if (scans != rate)
-        mistakes.push_back({"", 0, "lidars." + lidar.name + ".rate_hz",
+    for (const SensorItem& sensor : scenario.sensors) {
+      const auto spec = sensor.figures->scan_spec();
+      if (!spec || spec->planar()) continue;
+      if (sensor.rate() != rate)
+        mistakes.push_back({"", 0, sensor.key() + ".rate_hz",
                             "outputs.kitti_odometry has one scan for each picture", format_number(rate) + " Hz, the rate of " + at,
-                            format_number(scans) + " Hz", ""});
+                            format_number(sensor.rate()) + " Hz", ""});
       break;  // the first one is recorded
     }
   }
@@ -163,10 +163,7 @@ void check_datasets(const Scenario& scenario, std::vector<Diagnostic>& mistakes)
 
 void check_rawlog(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   if (scenario.outputs.rawlog_format == RawlogFormat::observations) return;
-  const auto has_odometry = [](const RobotItem& robot) {
-    return robot.urdf.empty() ? robot.model == RobotKind::crawler || robot.model == RobotKind::rover
-                              : !robot.left_wheels.empty() || !robot.left_tracks.empty();
-  };
+  const auto has_odometry = [](const RobotItem& robot) { return kind_of(robot).has_sides(robot); };
   const auto count = std::count_if(scenario.robots.begin(), scenario.robots.end(), has_odometry);
   if (count == 1) return;
   mistakes.push_back({"", 0, "outputs.rawlog_format", "actions need one robot with odometry",
@@ -214,6 +211,17 @@ void check_smoothness(const Scenario& scenario, std::vector<Diagnostic>& mistake
   }
 }
 
+// Files of scans need a sensor that scans.
+void check_scans(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  const OutputScenario& outputs = scenario.outputs;
+  std::string kinds;
+  for (const SensorKind* kind : sensor_kinds())
+    if (kind->most_points() > 0) kinds += (kinds.empty() ? "`" : " or `") + kind->key() + "`";
+  for (const auto& [key, wanted] : {std::pair{"outputs.pcd", outputs.pcd}, {"outputs.kitti", outputs.kitti}})
+    if (wanted && std::none_of(scenario.sensors.begin(), scenario.sensors.end(), scans))
+      mistakes.push_back({"", 0, key, "there is nothing to write", "a mission with " + kinds, "none", ""});
+}
+
 }  // namespace
 
 std::vector<std::string> export_names() { return {"ply", "obj", "glb", "sdf", "mjcf", "usd", "urdf"}; }
@@ -228,8 +236,8 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
   check_terrain(scenario.pile.terrain, mistakes);
   check_sky(scenario.light, mistakes);
   check_cameras(scenario, mistakes);
-  check_lidars(scenario, mistakes);
   check_sensors(scenario.sensors, mistakes);
+  check_scans(scenario, mistakes);
   check_sensor_names(scenario, mistakes);
   check_meshes(scenario.outputs, mistakes);
   check_datasets(scenario, mistakes);

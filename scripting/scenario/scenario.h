@@ -20,7 +20,6 @@
 #include "kernel/settling/settle.h"
 #include "render/scene/scene.h"
 #include "scripting/scenario/camera_scenario.h"
-#include "scripting/scenario/lidar_scenario.h"
 #include "scripting/scenario/robot_scenario.h"
 #include "scripting/sensors/sensor_item.h"
 #include "scripting/trajectory/trajectory.h"
@@ -204,8 +203,7 @@ struct Scenario {
   TrajectorySpec trajectory;      // path of the camera
   ImuScenario imu;                // in the camera
   std::vector<ImuScenario> imus;  // instead of `imu`: several, by name
-  std::vector<LidarScenario> lidars;  // on the rig, by name
-  std::vector<SensorItem> sensors;  // of the other kinds, in the order of kinds, then by name
+  std::vector<SensorItem> sensors;  // of the kinds of sensor_kinds(), in their order, then by name
   RecordSettlingScenario record_settling;  // recording before the flight
   OutputScenario outputs;         // files
   VoidScenario voids;             // measurement of voids

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "scripting/scenario/camera_schema.h"
-#include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/pile_schema.h"
 #include "scripting/scenario/robot_scenario.h"
 #include "scripting/scenario/sky_schema.h"
@@ -363,9 +362,9 @@ void add_outputs(Schema& k, OutputScenario& o) {
   k.value("outputs.euroc", o.euroc, "EuRoC MAV sequence, grey pictures: the folder euroc.");
   k.value("outputs.colmap", o.colmap, "COLMAP model with the true poses: the folder colmap.");
   k.value("outputs.frames", o.frames, "Every channel as PNG, EXR or text: the folder frames.");
-  k.value("outputs.pcd", o.pcd, "Each scan of each LiDAR as a PCD file, and its true motion: the folder pcd.");
+  k.value("outputs.pcd", o.pcd, "Each scan as a PCD file, and the true motion of its sensor: the folder pcd.");
   k.value("outputs.kitti", o.kitti,
-          "Each scan of each LiDAR as a KITTI binary file, with times and poses: the folder kitti.");
+          "Each scan as a KITTI binary file, with times and poses: the folder kitti.");
   k.value("outputs.kitti_odometry", o.kitti_odometry,
           "A KITTI odometry sequence: rectified pictures, the first LiDAR's scans, calibration and poses: the folder "
           "kitti_odometry.");
@@ -384,7 +383,7 @@ void add_outputs(Schema& k, OutputScenario& o) {
           "scenes for simulators, with all pieces fixed; `rubble export --dynamic` frees pieces.");
   k.value("outputs.groundtruth", o.groundtruth, "Poses of the camera in TUM format: groundtruth.txt.");
   k.value("outputs.sensors", o.sensors, "Readings of range finders, bumpers and so on: sensors/NAME.csv, where the mission has any.");
-  k.value("outputs.preview", o.preview, "A contact sheet of colour, depth and the first LiDAR's scans from above: preview.png.");
+  k.value("outputs.preview", o.preview, "A contact sheet of colour, depth and the scans of the first sensor that scans, from above: preview.png.");
   k.choice("outputs.depth", o.depth, {"16UC1", "32FC1"},
            "Depth in bag and MCAP files: millimetres (0: none) or metres (NaN: none).");
   k.choice(
@@ -441,7 +440,6 @@ Schema make_scenario_schema(Scenario& s) {
   add_camera_keys(keys, s);
   add_trajectory(keys, s.trajectory);
   add_imu(keys, s);
-  add_lidar_keys(keys, s);
   add_sensor_keys(keys, s.sensors);
   add_record_settling(keys, s.record_settling);
   add_voids(keys, s.voids);

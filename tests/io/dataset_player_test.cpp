@@ -9,7 +9,7 @@
 
 #include "io/base/atomic_file.h"
 #include "io/datasets/frames_recorder.h"
-#include "io/datasets/lidar_recorder.h"
+#include "io/datasets/range_scan_recorder.h"
 #include "io/ros/mcap_recorder.h"
 #include "io/ros/rosbag_recorder.h"
 #include "kernel/base/error.h"
@@ -178,24 +178,25 @@ TEST(DatasetPlayer, GivesScansWithTheirTrueMotion) {
   ScratchFolder folder;
   record("frames", folder);
   Recording recording = test::full_recording();
-  LidarRecord& lidar = recording.lidars.emplace_back();
-  lidar.spec.elevations_deg = {-1, 1};
-  lidar.spec.delays_ns = {0, 100};
-  lidar.spec.columns = 20;
-  lidar.spec.column_ns = 1'000'000;
+  LidarSpec spec;
+  spec.elevations_deg = {-1, 1};
+  spec.delays_ns = {0, 100};
+  spec.columns = 20;
+  spec.column_ns = 1'000'000;
+  recording.sensors = {{"lidar", "/points", "lidar_link", "", {}, std::make_shared<test::FixedScans>(spec)}};
   const auto pose = [](std::int64_t stamp_ns) {
     const double t = double(stamp_ns - 1'000'000'000) * 1e-9;
     return Pose{portable::quat_from_rpy(0, 0, 0.3 * t), {2 * t, -t, 1}};
   };
-  std::vector<LidarScan> scans;
+  std::vector<RangeScan> scans;
   const auto recorder = make_pcd_recorder(folder / "pcd", recording, 1);
   for (int i = 0; i < 3; ++i) {
-    LidarScan& scan = scans.emplace_back();
+    RangeScan& scan = scans.emplace_back();
     scan.index = i;
     scan.stamp_ns = 1'000'000'000 + i * std::int64_t{25'500'000};  // no whole milliseconds
-    for (int k = 0; k < 21; ++k) scan.world_from_lidar.push_back(pose(scan.stamp_ns + k * LidarScan::kMotionStep));
+    for (int k = 0; k < 21; ++k) scan.world_from_sensor.push_back(pose(scan.stamp_ns + k * RangeScan::kMotionStep));
     scan.points = {{1, 2, 3, 40, 0.0030001f, 1, 3}, {4, 5, 6, 50, 0.019f, 0, 19}};
-    recorder->write_lidar(scan);
+    recorder->write_reading({0, scan.stamp_ns, {}, std::make_shared<const RangeScan>(scan)});
   }
   recorder->finish();
   RecordedDataset dataset = dataset_in(folder);
@@ -205,15 +206,17 @@ TEST(DatasetPlayer, GivesScansWithTheirTrueMotion) {
   DatasetPlayer player(dataset, wanted);
   std::size_t count = 0;
   player.play([&](const Sample& sample) {
-    const auto* scan = std::get_if<LidarScan>(&sample);
-    if (!scan) return;
-    const LidarScan& was = scans.at(count++);
+    const auto* reading = std::get_if<Reading>(&sample);
+    if (!reading) return;
+    const RangeScan* scan = reading->scan.get();
+    ASSERT_TRUE(scan);
+    const RangeScan& was = scans.at(count++);
     EXPECT_EQ(scan->stamp_ns, was.stamp_ns);
     ASSERT_EQ(scan->points.size(), was.points.size());
-    EXPECT_EQ(std::memcmp(scan->points.data(), was.points.data(), 2 * sizeof(LidarPoint)), 0);
-    ASSERT_GE(scan->world_from_lidar.size(), 20u);
+    EXPECT_EQ(std::memcmp(scan->points.data(), was.points.data(), 2 * sizeof(ScanPoint)), 0);
+    ASSERT_GE(scan->world_from_sensor.size(), 20u);
     for (std::size_t k = 0; k < 20; ++k)
-      EXPECT_LT(distance(scan->world_from_lidar[k].translation, was.world_from_lidar[k].translation), 1e-8);
+      EXPECT_LT(distance(scan->world_from_sensor[k].translation, was.world_from_sensor[k].translation), 1e-8);
   });
   EXPECT_EQ(count, 3u);
   write_text_file(folder / "pcd/lidar/000001.pcd", cut_off(test::read_text(folder / "pcd/lidar/000001.pcd")));

@@ -56,28 +56,32 @@ Pose scanner_pose(std::int64_t stamp_ns) {
 
 Recording with_scanner() {
   Recording recording;
-  LidarRecord& lidar = recording.lidars.emplace_back();
-  lidar.spec.elevations_deg = {0};
-  lidar.spec.delays_ns = {0};
-  lidar.spec.columns = 30;
-  lidar.spec.column_ns = 1'000'000;
+  LidarSpec spec;
+  spec.elevations_deg = {0};
+  spec.delays_ns = {0};
+  spec.columns = 30;
+  spec.column_ns = 1'000'000;
+  LidarSpec planar = spec;
+  planar.pattern = LidarPattern::planar;  // is passed over
+  for (const LidarSpec& of : {planar, spec})
+    recording.sensors.push_back({"scanner", "", "", "", {}, std::make_shared<test::FixedScans>(of)});
   return recording;
 }
 
-LidarScan scan_of_mark(std::int64_t stamp_ns) {
-  LidarScan scan;
+Reading scan_of_mark(std::int64_t stamp_ns) {
+  RangeScan scan;
   scan.stamp_ns = stamp_ns;
-  for (int i = 0; i < 34; ++i) scan.world_from_lidar.push_back(scanner_pose(stamp_ns + i * LidarScan::kMotionStep));
+  for (int i = 0; i < 34; ++i) scan.world_from_sensor.push_back(scanner_pose(stamp_ns + i * RangeScan::kMotionStep));
   for (int i = 0; i < 30; ++i) {
-    const Vec3 p = scan.world_from_lidar[std::size_t(i)].inverse() * kMark;
+    const Vec3 p = scan.world_from_sensor[std::size_t(i)].inverse() * kMark;
     scan.points.push_back({float(p.x), float(p.y), float(p.z), 50, float(i) * 1e-3f, 0, std::uint16_t(i)});
   }
-  return scan;
+  return {1, stamp_ns, {}, std::make_shared<const RangeScan>(scan)};
 }
 
 void write_scanned(Recorder& recorder, int index, bool scanned = true) {
   const Frame frame = test::make_frame(index);
-  if (scanned) recorder.write_lidar(scan_of_mark(frame.stamp_ns));
+  if (scanned) recorder.write_reading(scan_of_mark(frame.stamp_ns));
   recorder.write(frame);
 }
 

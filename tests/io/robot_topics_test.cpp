@@ -125,8 +125,7 @@ TEST(RobotTopics, WhatALinkCarriesHangsOnThatLink) {
   recording.imus[0].frame_id = "rig_link";
   recording.imus[1].topic = "/eye_imu", recording.imus[1].frame_id = "eye_imu_link";
   recording.imus[1].carrier = "mast";
-  recording.lidars.resize(1);
-  recording.lidars[0].carrier = "base_link";
+  recording.sensors.push_back({"lidar", "/points", "lidar_link", "base_link", {}, std::make_shared<test::FixedObservation>(RawlogObservation())});
   const ScratchFolder folder;
   const auto recorder = make_rosbag_recorder(folder / "a.bag", of);
   for (int i = 0; i < 2; ++i) {

@@ -67,7 +67,7 @@ RobotController undulate(const RobotModel& model) {
 }
 
 RobotController push(const RobotModel& model, double speed) {
-  return [&model, speed](const RobotSense&) { return drive_tracks(model, {speed, 0}, {}); };
+  return [&model, speed](const RobotSense&) { return drive_sides(model, speed, 0); };
 }
 
 TEST(RobotRun, APileThatIsLaidStaysAsItWas) {
@@ -139,7 +139,7 @@ TEST(RobotRun, TheBitsDoNotDependOnThreads) {
     run.add(crawler, {{}, {-1.8, 0, 0.002}}, push(crawler, 0.4));
     run.add(snake, {{}, {0, 0, 0.6}}, undulate(snake));
     run.add(rover, {{}, {0, 1.6, 0.002}}, [&rover](const RobotSense&) {
-      return drive_wheels(rover, {-0.5, 0.3});
+      return drive_sides(rover, -0.5, 0.3);
     });
     hashes[k] = run.run().hash();
   }
@@ -150,7 +150,7 @@ TEST(RobotRun, TheBitsDoNotDependOnThreads) {
   run.add(crawler, {{}, {-1.8, 1e-9, 0.002}}, push(crawler, 0.4));
   run.add(snake, {{}, {0, 0, 0.6}}, undulate(snake));
   run.add(rover, {{}, {0, 1.6, 0.002}}, [&rover](const RobotSense&) {
-    return drive_wheels(rover, {-0.5, 0.3});
+    return drive_sides(rover, -0.5, 0.3);
   });
   EXPECT_NE(run.run().hash(), hashes[0]);
 }
@@ -162,7 +162,7 @@ TEST(RobotRun, ARobotInsideAPieceIsNamed) {
   const PileState state = settle_pile(pile);
   const RobotModel model = make_rover();
   RobotRun run(pile, state, run_options(1));
-  run.add(model, {{}, {0, 0, 0.62}}, [&](const RobotSense&) { return drive_wheels(model, {}); });
+  run.add(model, {{}, {0, 0, 0.62}}, [&](const RobotSense&) { return drive_sides(model, 0, 0); });
   try {
     run.run();
     FAIL();

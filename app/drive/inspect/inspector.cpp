@@ -84,15 +84,15 @@ Scenario choose_drawn(const Scenario& of, int width, int height) {
   return drawn;
 }
 
-// From a corner, so that all of it is in view.
-DrivenPose look_over(const PileState& pile) {
+// From a corner, so that all of it is in view but for terrain.
+DrivenPose look_over(const PileState& pile, const std::vector<PieceType>& types) {
   Aabb box;
   box.include({-0.5, -0.5, 0}), box.include({0.5, 0.5, 0.5});
   for (const PieceState& piece : pile.pieces)
-    if (piece.status != PieceStatus::fixed && piece.status != PieceStatus::lost) box.include(piece.world_from_body.translation);
+    if (!types[std::size_t(piece.type)].surface && piece.status != PieceStatus::lost) box.include(piece.world_from_body.translation);
   const Vec3 extent = box.max - box.min, middle = (box.max + box.min) * 0.5;
   const double reach = std::max({extent.x, extent.y, extent.z}), away = 0.8 * reach + 1.2;
-  const Vec3 target{middle.x, middle.y, 0.35 * box.max.z};
+  const Vec3 target{middle.x, middle.y, 0.25 * box.max.z};
   const Vec3 from{target.x - 0.8 * away, target.y - 0.6 * away, target.z + 0.45 * away};
   const Vec3 d = target - from;
   constexpr double kDegrees = 180 / portable::kPi;
@@ -126,7 +126,7 @@ const std::vector<KeyHelp>& all_inspector_help() {
       {"hulls, contacts", "V, C", ""},
       {"views of cameras", "O", ""},
       {"map of voids", "M", ""},
-      {"links, LiDAR echoes", "G, B", ""},
+      {"links, echoes of scans", "G, B", ""},
       {"lamp", "L", "A"},
       {"save a picture", "P", "press the left stick"},
       {"this help", "H or F1", "X"},
@@ -165,7 +165,7 @@ void Inspector::enter(std::optional<std::uint64_t> seed) {
   overlay_ = std::make_unique<Overlay>(mission_->assets.types);
   voids_ = std::make_unique<VoidSurvey>(mission_->scenario.voids, mission_->assets);
   spring_.release();
-  flight_.clear(), scan_ = {}, touched_ = 0;
+  flight_.clear(), scan_.reset(), touched_ = 0;
   window_.set_title("rubble inspect: " + of.mission + ", seed " + std::to_string(mission_->scenario.seed));
 }
 
@@ -206,7 +206,7 @@ void Inspector::run() {
         if (!camera_) {
           DriveLimits limits;
           limits.speed = 2;
-          camera_ = std::make_unique<DrivenCamera>(look_over(drawn_), Plan::ghost, 0.1, nothing(), limits);
+          camera_ = std::make_unique<DrivenCamera>(look_over(drawn_, mission_->assets.types), Plan::ghost, 0.1, nothing(), limits);
           print_err("inspect: ready, H for help\n");
         }
       }
@@ -287,7 +287,7 @@ void Inspector::turn() {
   camera_->step(input, 1 / kPictureRate);
   if (robots_)
     for (const Sample& sample : robots_->observe())
-      if (const auto* scan = std::get_if<LidarScan>(&sample)) scan_ = *scan;
+      if (const auto* reading = std::get_if<Reading>(&sample); reading && reading->scan) scan_ = reading->scan;
   const std::int64_t stamp = mission_->scenario.start_ns + std::int64_t(double(frames_) * 1e9 / kPictureRate);
   eye_->fly_on(stamp, camera_->pose().world_from_camera());
   frame_ = eye_->take(frames_++);
@@ -362,7 +362,7 @@ void Inspector::act(DriveAction action) {
       return;
     case DriveAction::scans:
       choice_.scans = !choice_.scans;
-      if (choice_.scans && !robots_) say("echoes are those of LiDARs on robots, which come when the pile rests");
+      if (choice_.scans && !robots_) say("echoes are those of scans on robots, which come when the pile rests");
       return;
     case DriveAction::cameras:
       choice_.cameras = !choice_.cameras;
@@ -456,7 +456,7 @@ std::vector<PictureLine> Inspector::draw_overlay() {
   if (choice_.hulls && !robots_) overlay_->add_hulls(pile_->state(), nullptr, camera_->pose().position, lines, kHullReach);
   if (choice_.contacts) Overlay::add_all_contacts(world(), step_time(), camera_->pose().position, lines);
   if (choice_.frames) Overlay::add_frames(world(), lines);
-  if (choice_.scans) Overlay::add_scan(scan_, lines);
+  if (choice_.scans && scan_) Overlay::add_scan(*scan_, lines);
   if (choice_.cameras) add_cameras(lines);
   if (choice_.voids) {
     try {

@@ -141,6 +141,7 @@ double count_frames(const std::vector<RecordedSize>& cameras) {
 void add_recordings(const Scenario& s, const std::vector<RecordedSize>& cameras, Estimate& sizes) {
   for (const RecordingFormat& format : recording_formats()) {
     if (!is_wanted(format, s)) continue;
+    if (!format.beside.empty()) sizes[format.beside] = 30000;
     const bool apart = format.one_camera && s.names_cameras();
     std::uint64_t& sum = sizes[apart ? kCamerasFolder : format.leaves];
     for (const RecordedSize& size : cameras) sum += std::uint64_t(format.estimate(size));

@@ -1,5 +1,6 @@
 #include "app/card/slam_settings.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <vector>
@@ -32,11 +33,14 @@ struct Camera {
   bool fisheye, stereo;
   std::optional<ImuScenario> imu;  // the first on the camera's carrier
 
-  explicit Camera(const Scenario& s)
-      : scenario(s), mounted(s.cameras.front()), k(mounted.camera.intrinsics()),
-        fisheye(k.lens == LensModel::fisheye), stereo(mounted.camera.stereo_baseline > 0) {
+  Camera(const Scenario& s, const MountedCamera& of)
+      : scenario(s), mounted(of), k(mounted.camera.intrinsics()),
+        fisheye(k.lens == LensModel::fisheye), stereo(mounted.camera.stereo_baseline > 0), imu(find_unit(s, of)) {}
+
+  static std::optional<ImuScenario> find_unit(const Scenario& s, const MountedCamera& camera) {
     for (const ImuScenario& unit : s.imus)
-      if (!imu && unit.ride == mounted.ride) imu = unit;
+      if (unit.ride == camera.ride) return unit;
+    return std::nullopt;
   }
   // radtan has no k3; what has one is said in the card.
   std::vector<double> four() const {
@@ -200,7 +204,7 @@ std::string camera_yaml(const Camera& c) {
     return key + ":\n   rows: " + std::to_string(rows) + "\n   cols: " + std::to_string(cols) +
            "\n   data: " + list(values) + "\n";
   };
-  return "%YAML:1.0\n---\ncamera_name: camera\n" + row("image_width", c.k.width) +
+  return "%YAML:1.0\n---\ncamera_name: " + c.mounted.name + "\n" + row("image_width", c.k.width) +
          row("image_height", c.k.height) + matrix("camera_matrix", 3, 3, k) + "distortion_model: " +
          (c.fisheye ? "equidistant" : "plumb_bob") + "\n" +
          matrix("distortion_coefficients", 1, int(distortion.size()), distortion) +
@@ -218,7 +222,9 @@ std::string rtabmap(const Camera& c) {
 }  // namespace
 
 std::map<std::string, std::string> make_slam_settings(const Scenario& scenario) {
-  const Camera camera(scenario);
+  const std::vector<MountedCamera>& cameras = scenario.cameras;
+  const auto with_unit = std::find_if(cameras.begin(), cameras.end(), [&](const MountedCamera& c) { return Camera::find_unit(scenario, c); });
+  const Camera camera(scenario, with_unit == cameras.end() ? cameras.front() : *with_unit);
   std::map<std::string, std::string> files;
   files["orbslam3.yaml"] = orbslam3(camera);
   files["kalibr/camchain.yaml"] = camera_chain(camera);

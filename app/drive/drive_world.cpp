@@ -8,6 +8,7 @@
 #include "app/drive/whole_paths.h"
 #include "app/planning/flight.h"
 #include "app/scene/build_scene.h"
+#include "app/sensors/camera_renderers.h"
 #include "app/support/print.h"
 #include "scripting/sandbox/script_file.h"
 
@@ -80,6 +81,10 @@ void enter_robots(const DriveRequest& request, const ResolvedMission& mission, R
                       "run the mission of the drive with `rubble run`; it records everything"});
   world.robots = with_lines_of_script(
       mission, [&] { return std::make_unique<RobotDrive>(mission, world.pile, request.robot, run); });
+  // The camera of the drive, and of the mission that is saved, is on the robot.
+  if (world.scenario.record_settling.on)
+    print_err("drive: without record_settling: the camera is on the robot, which starts when the pile rests\n");
+  world.scenario.record_settling = {};
   world.plan = Plan::ghost;
   world.entry = make_driven_pose(world.robots->world_from_rig());
 }
@@ -130,10 +135,13 @@ std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
   drawn.cameras.front().camera.colour = ColourSpec();
   const Scene scene = world->robots ? world->robots->build_scene(drawn)
                                     : build_scene(drawn, world->assets, world->pile);
-  world->renderer = prepare_renderer(scene, drawn, context, world->threads, [&](double fraction) {
-    run.progress.update(fraction, "light");
-    go_on();
-  });
+  world->renderer = prepare_renderer(scene, drawn.cameras.front().camera.colour, context,
+                                     {world->threads,
+                                      [&](double fraction) {
+                                        run.progress.update(fraction, "light");
+                                        go_on();
+                                      },
+                                      {}});
   run.progress.finish("ready on " + context.info().renderer);
   return world;
 }

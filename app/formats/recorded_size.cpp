@@ -92,7 +92,7 @@ FlightSize size_of_flight(const Scenario& s, std::size_t camera) {
   if (camera == 0) size.readings = size.frames * rate_of_readings(s) / path.rate_hz;
   if (camera == 0) count_scans(s, size.frames / path.rate_hz, size);
   if (!s.record_settling.on) return size;
-  size.frames += frames_of_settling(s, mounted);
+  if (!mounted.ride.on()) size.frames += frames_of_settling(s, mounted);  // robots start when the pile rests
   if (camera == 0) count_scans(s, duration_of_settling(s), size);
   if (imu_rate > 0) size.imu_samples += duration_of_settling(s) * imu_rate + 1;
   return size;

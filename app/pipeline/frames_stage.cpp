@@ -11,6 +11,7 @@
 #include "app/pipeline/stages.h"
 #include "app/provenance/frame_journal.h"
 #include "app/scene/build_scene.h"
+#include "app/sensors/camera_renderers.h"
 #include "app/sensors/exact_depth.h"
 #include "app/sensors/sensor_suite.h"
 #include "app/support/print.h"
@@ -18,9 +19,9 @@
 #include "io/base/atomic_file.h"
 #include "io/base/csv_text.h"
 #include "io/recording/recording_queue.h"
+#include "kernel/base/hash.h"
 #include "kernel/base/system/disk_cache.h"
 #include "render/gl/gl_context.h"
-#include "render/renderer.h"
 #include "render/view/drawn_by.h"
 
 namespace rubble {
@@ -75,16 +76,6 @@ struct FrameSinks {
   int frames = 0;  // so far
 };
 
-RenderOptions render_options(const Scenario& scenario, int threads,
-                             const std::function<void(double)>& on_image) {
-  RenderOptions options;
-  options.threads = threads;
-  options.colour = scenario.cameras.front().camera.colour;
-  options.image_progress = on_image;
-  options.cache_folder = DiskCache::usual_folder();
-  return options;
-}
-
 // What there is to be seen: the settled pile, and robots, which start with the flight.
 struct Seen {
   const SettledPile& pile;
@@ -93,7 +84,7 @@ struct Seen {
 
 // The sensors on one leg, with the scene that they see.
 struct PreparedLeg {
-  std::unique_ptr<Renderer> renderer;
+  std::unique_ptr<CameraRenderers> renderers;
   std::unique_ptr<SensorSuite> sensors;
   std::vector<std::unique_ptr<ExactDepth>> depths;  // by camera; none: as it is drawn
 };
@@ -101,8 +92,8 @@ struct PreparedLeg {
 // The scene as sensors have it while the robots are driven, when nobody knows what will move.
 Scene build_felt_scene(const ResolvedMission& mission, const Seen& seen) {
   const Track& track = seen.robots.moved.track;
-  return build_live_scene(mission.scenario, mission.assets, seen.pile.state, seen.robots.moved,
-                          [&track, start = mission.scenario.start_ns](int id, std::int64_t stamp_ns) {
+  return build_live_scene(mission.scenario, mission.assets, seen.pile.state, seen.robots.moved, seen.robots.start_ns,
+                          [&track, start = seen.robots.start_ns](int id, std::int64_t stamp_ns) {
                             return pose_in_track(track, id, stamp_ns - start);
                           });
 }
@@ -116,13 +107,13 @@ bool is_lit_live(const Scenario& scenario) {
   return false;
 }
 
-// Robots are driven from the mission's first stamp on: with them there is one leg.
+// Robots start with the flight.
 Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen& seen) {
   const PileState& pile = seen.pile.state;
   const Scenario& scenario = mission.scenario;
-  if (!seen.robots.moved.empty())
+  if (!leg.window && !seen.robots.moved.empty())
     return is_lit_live(scenario) ? build_felt_scene(mission, seen)
-                                 : build_robot_scene(scenario, mission.assets, pile, seen.robots.moved, scenario.start_ns);
+                                 : build_robot_scene(scenario, mission.assets, pile, seen.robots.moved, seen.robots.start_ns);
   Scene scene = leg.window ? build_moving_scene(scenario, mission.assets, pile, seen.pile.track, *leg.window, leg.zero_ns)
                            : build_scene(scenario, mission.assets, pile);
   scene.start_ns = leg.flight.start_ns;
@@ -149,16 +140,17 @@ PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Se
   context.progress.start(leg.window ? "settling scene" : "scene");
   PreparedLeg prepared;
   const Scene scene = build_leg_scene(leg, mission, seen);
-  prepared.renderer = prepare_renderer(
-      scene, mission.scenario, gl, context.threads(),
-      [&](double fraction) { context.progress.update(fraction, "light"); },
-      [&](double fraction) { taking.report(fraction, folder, context); });
+  const CameraRendering rendering{context.threads(), [&](double fraction) { context.progress.update(fraction, "light"); },
+                                  [&](double fraction) { taking.report(fraction, folder, context); }};
+  prepared.renderers =
+      std::make_unique<CameraRenderers>(scene, mission.scenario.cameras, std::vector<std::size_t>(), gl, rendering);
   const bool felt = !leg.window && !seen.robots.moved.empty();
+  static const RobotReadings nothing_driven;
   std::optional<Scene> felt_scene;
   if (felt && casts_rays(mission.scenario.sensors)) felt_scene = build_felt_scene(mission, seen);
   prepared.sensors = std::make_unique<SensorSuite>(
       mission.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before}, felt_scene ? *felt_scene : scene,
-      *prepared.renderer, context.threads(), seen.robots.readings);
+      *prepared.renderers, context.threads(), leg.window ? nothing_driven : seen.robots.readings);
   if (felt) prepared.depths = make_told_depths(mission, seen, context.threads());
   context.progress.finish("ready on " + gl.info().renderer);
   return prepared;
@@ -253,13 +245,6 @@ void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const 
 }
 
 }  // namespace
-
-std::unique_ptr<Renderer> prepare_renderer(const Scene& scene, const Scenario& scenario,
-                                           GlContext& gl, int threads,
-                                           const std::function<void(double)>& on_light,
-                                           const std::function<void(double)>& on_image) {
-  return std::make_unique<Renderer>(gl, scene, render_options(scenario, threads, on_image), on_light);
-}
 
 RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& pile,
                              const DrivenRobots& robots, const std::vector<Leg>& legs,

@@ -1,7 +1,8 @@
 // The legs of a recording: what the camera sees one after the other, in one sequence of frames.
 //
 // A mission has one leg, its flight over the settled pile. With `record_settling` another comes before
-// it: the camera stands and watches the pile settle, unless nothing moved. Stamps run on from the one to the other.
+// it: the rig stands and watches the pile settle, unless nothing moved. Stamps run on from the one to the other. Robots, and
+// the sensors on them, start with the flight.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +24,9 @@ struct Leg {
   std::int64_t zero_ns = 0;           // the stamp of the track's time 0
   std::uint64_t noise_seed = 0;       // of the sensors
 };
+
+// The stamp of the flight's start, and of the robots' time 0. Throws InputError as plan_legs().
+std::int64_t find_flight_start(const Scenario& scenario, const Track& track);
 
 // robots: what carries sensors. Throws InputError, keyed "record_settling.from", when the pile came to rest before.
 std::vector<Leg> plan_legs(const Scenario& scenario, const FlightPlan& plan, const Track& track,

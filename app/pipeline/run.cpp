@@ -158,7 +158,7 @@ StageResults run_stages(const ResolvedMission& mission, RunFolder& folder, RunCo
     results.metrics = join(pile.metrics, measure_voids(mission, survey, folder, context));
     write_pile_files(mission, pile, folder, context);
     if (with_frames) {
-      const DrivenRobots robots = drive_robots(mission, pile.state, folder, context);
+      const DrivenRobots robots = drive_robots(mission, pile, folder, context);
       const std::vector<Leg> legs = plan_flight(mission, pile, robots, survey, folder, context);
       results.frames = record_frames(mission, pile, robots, legs, folder, context);
       results.metrics = join(join(results.metrics, robots.metrics), results.frames.metrics);

@@ -31,7 +31,6 @@
 #include "kernel/model/track.h"
 #include "kernel/settling/settle.h"
 #include "kernel/world/world.h"
-#include "render/renderer.h"
 
 namespace rubble {
 
@@ -77,22 +76,15 @@ Metrics measure_voids(const ResolvedMission& mission, PileSurvey& survey, const 
 void write_pile_files(const ResolvedMission& mission, const SettledPile& pile, RunFolder& folder,
                       RunContext& context);
 
-// Drives the mission's robots through the pile and writes their results. Throws InputError for a robot that overlaps
-// something at its start and for a function of the script that fails.
-DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile, RunFolder& folder,
+// Drives the mission's robots through the pile from the start of the flight on, and writes their results. Throws InputError
+// for a robot that overlaps something at its start, for a function of the script that fails, and as plan_legs() does.
+DrivenRobots drive_robots(const ResolvedMission& mission, const SettledPile& pile, RunFolder& folder,
                           RunContext& context);
 
 // Finds the path if it depends on the pile. Warns of cameras inside pieces. Throws InputError, with the line of the
 // script, as resolve_flight() and plan_legs() do. At least one leg is returned.
 std::vector<Leg> plan_flight(const ResolvedMission& mission, const SettledPile& pile,
                           const DrivenRobots& robots, PileSurvey& survey, RunFolder& folder, RunContext& context);
-
-// A renderer of the lit scene on the device of `gl`, for the scenario's cameras. on_light: progress from 0 to 1;
-// on_image: progress of a path-traced image; may throw to stop.
-std::unique_ptr<Renderer> prepare_renderer(const Scene& scene, const Scenario& scenario,
-                                           GlContext& gl, int threads,
-                                           const std::function<void(double)>& on_light,
-                                           const std::function<void(double)>& on_image = {});
 
 RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& pile,
                              const DrivenRobots& robots, const std::vector<Leg>& legs,

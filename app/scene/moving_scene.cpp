@@ -102,9 +102,10 @@ Scene build_moving_scene(const Scenario& scenario, const AssetLibrary& assets, c
 }
 
 Scene build_robot_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
-                        const RobotTrack& robots, std::int64_t zero_ns) {
+                        const RobotTrack& robots, std::int64_t start_ns) {
   Scene scene = build_scene_with(robots, scenario, assets, pile);
-  set_in_motion(robots.track, {robots.track.begin(), robots.track.end()}, zero_ns, pile.fines, scene);
+  scene.start_ns = start_ns;
+  set_in_motion(robots.track, {robots.track.begin(), robots.track.end()}, start_ns, pile.fines, scene);
   return scene;
 }
 
@@ -116,8 +117,9 @@ std::optional<Pose> pose_in_track(const Track& track, int id, std::int64_t since
 }
 
 Scene build_live_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
-                       const RobotTrack& robots, LivePose pose_of) {
+                       const RobotTrack& robots, std::int64_t start_ns, LivePose pose_of) {
   Scene scene = build_scene_with(robots, scenario, assets, pile);
+  scene.start_ns = start_ns;
   const bool fixed_debris = scenario.robot_run.debris == DebrisMotion::fixed;
   std::vector<int> movers;
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
@@ -126,7 +128,7 @@ Scene build_live_scene(const Scenario& scenario, const AssetLibrary& assets, con
     const bool piece = std::size_t(mover) < pile.pieces.size();
     if (piece && (fixed_debris || pile.pieces[std::size_t(mover)].status == PieceStatus::fixed)) continue;
     scene.motion.moving.push_back(std::uint32_t(i));
-    if (const auto pose = pose_of(mover, scenario.start_ns)) scene.instances[i].world_from_body = *pose;
+    if (const auto pose = pose_of(mover, start_ns)) scene.instances[i].world_from_body = *pose;
     scene.motion.reach.include(scene.instances[i].world_from_body.translation);
     movers.push_back(mover);
   }

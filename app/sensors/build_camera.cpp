@@ -54,7 +54,8 @@ RigFlight build_rig_flight(const std::vector<MountedCamera>& cameras, std::int64
   flight.start_ns = start_ns;
   for (const MountedCamera& camera : cameras) {
     flight.carriers.push_back(robots.path_of(camera.ride, path));
-    flight.cameras.push_back(build_flight(camera, start_ns, rate_hz, flight.carriers.back()));
+    const auto& carrier = flight.carriers.back();
+    flight.cameras.push_back(carrier ? build_flight(camera, start_ns, rate_hz, carrier) : Flight{});
   }
   flight.path = std::move(path);
   return flight;

@@ -28,8 +28,8 @@ Flight build_flight(const MountedCamera& camera, std::int64_t start_ns, double r
 struct RigFlight {
   std::int64_t start_ns = 0;  // the stamp of the paths' time 0
   std::shared_ptr<const MotionPath> path;  // of the rig; never null
-  std::vector<std::shared_ptr<const MotionPath>> carriers;  // by camera: of the rig, or of the link
-  std::vector<Flight> cameras;             // each with the stamps of its own rate
+  std::vector<std::shared_ptr<const MotionPath>> carriers;  // by camera: of the rig, or of the link; null: it is not there
+  std::vector<Flight> cameras;             // each with the stamps of its own rate; empty: it is not there
 };
 RigFlight build_rig_flight(const std::vector<MountedCamera>& cameras, std::int64_t start_ns, double rate_hz,
                            std::shared_ptr<const MotionPath> path, const RobotReadings& robots = {});

@@ -120,6 +120,12 @@ class ImuSensor : public Sensor {
 
 }  // namespace
 
+bool is_over(const Sensor::Needs& next, std::int64_t last_ns, bool taken) {
+  constexpr std::int64_t kRounding = 1000;  // of stamps; unit: ns
+  if (next.end == next.stamp) return next.stamp > last_ns;
+  return next.end - kRounding > last_ns && (taken || next.stamp > last_ns);
+}
+
 const std::shared_ptr<const MotionPath>& SensorParts::way_of(const Carrier& carrier, const std::string& key) const {
   const std::shared_ptr<const MotionPath>& way = robots.path_of(carrier, rig);
   if (way) return way;

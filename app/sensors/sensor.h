@@ -31,6 +31,10 @@ class Sensor {
   virtual Sample take() = 0;
 };
 
+// Whether a sensor gives no more by that stamp: it gives samples up to there, and of what lasts only what is whole by then.
+// Where nothing whole fits, it gives one all the same. taken: it gave one.
+bool is_over(const Sensor::Needs& next, std::int64_t last_ns, bool taken);
+
 // What the sensors of a recording or a session share. All of it must outlive them.
 struct SensorParts {
   const Scenario& scenario;

@@ -263,7 +263,7 @@ std::string make_dataset_page(const FinishedRun& saved, const AssetLibrary& asse
     data["tracks"].push_back(std::move(track));
     has_frames = has_frames || !way.poses.empty();
   }
-  data["robots"] = describe_robots_of(saved.folder, scenario.start_ns);
+  data["robots"] = describe_robots_of(saved.folder);
   if (!data["robots"].empty()) not_shown += "<p>Pieces are where they rested before robots moved them.</p>\n";
   std::string json = data.dump(-1, ' ', true, Json::error_handler_t::replace);
   for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;) json.replace(at, 1, "\\u003c");

@@ -72,17 +72,6 @@ void check_camera(const MountedCamera& camera, std::vector<Diagnostic>& mistakes
         "more than " + beside + "depth_sensor.min_range", "");
 }
 
-// One renderer draws for all cameras.
-void check_colour(const ColourSpec& colour, const MountedCamera& first, const std::string& at,
-                  std::vector<Diagnostic>& mistakes) {
-  const ColourSpec& other = first.camera.colour;
-  if (colour.quality == other.quality && colour.samples == other.samples &&
-      colour.denoise == other.denoise)
-    return;
-  mistakes.push_back({"", 0, at + ".quality", "differs from the quality of another camera",
-                      "quality, samples and denoise as `cameras." + first.name + "` has them", "", ""});
-}
-
 // The first of the short form's keys that does not have its default; empty: none.
 std::string find_key_of_one_camera(const MissionForm& form) {
   MissionForm given = form, usual;
@@ -246,10 +235,8 @@ void check_all_names(const Scenario& scenario, SensorNames& names, std::vector<D
 
 void check_cameras(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   for (const MountedCamera& camera : scenario.cameras) {
-    const std::string at = camera.key();
-    check_name(camera.name, at, "a camera", mistakes);
+    check_name(camera.name, camera.key(), "a camera", mistakes);
     check_camera(camera, mistakes);
-    check_colour(camera.camera.colour, scenario.cameras.front(), at, mistakes);
   }
 }
 

@@ -119,9 +119,11 @@ void add_robot_keys(Schema& k, Scenario& s) {
 
 void check_robots(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   const std::vector<std::string> names = robot_names(scenario.robots);
-  if (!names.empty() && scenario.record_settling.on)
-    mistakes.push_back({"", 0, "record_settling", "robots start with the first frame",
-                        "one of robots and record_settling", "both", ""});
+  const bool watched = !scenario.trajectory.ride.on() && std::any_of(scenario.cameras.begin(), scenario.cameras.end(),
+                                                                     [](const MountedCamera& c) { return !c.ride.on(); });
+  if (scenario.record_settling.on && !watched)
+    mistakes.push_back({"", 0, "record_settling", "robots start when the pile rests, and every camera is on a robot",
+                        "a camera without `ride`, and a `trajectory` without `ride`", "", ""});
   check_ride(scenario, names, mistakes);
   check_sensor_rides(scenario, names, mistakes);
   check_lamps(scenario, mistakes);

@@ -312,8 +312,6 @@ TEST(CamerasInput, MistakesAreNamed) {
   expect("cameras = { a = { channels = { \"flows\" } } }",
          "cameras.a.channels[1]: unknown channel `flows` (did you mean `flow`?)");
   expect("cameras = { a = { lens = { k1 = 0.1 } } }", "cameras.a.lens.model: a pinhole has no distortion");
-  expect("cameras = { a = {}, b = { quality = \"reference\" } }",
-         "cameras.b.quality: differs from the quality of another camera");
 }
 
 TEST(CamerasInput, OverridesReachATableByName) {

@@ -32,7 +32,7 @@ Files make_run_files(const PackRequest& request) {
     for (const auto& settings : {make_slam_settings(scenario), make_viewer_settings(scenario)})
       for (const auto& [name, text] : settings) files["settings/" + name] = text;
     if (!scenario.imus.empty() && files.count("settings/kalibr/imu.yaml") == 0)
-      print_err("warning: no inertial unit rides with the first camera, so the settings of SLAM programs describe none\n");
+      print_err("warning: no inertial unit rides with any camera, so the settings of SLAM programs describe none\n");
   }
   if (request.card) files["README.md"] = make_dataset_card(saved, request.text);
   files["SHA256SUMS"] = make_checksums(saved, files);

@@ -195,7 +195,7 @@ void Inspector::run() {
         drawn_ = pile_->all_pieces();
         lay_surroundings(mission_->scenario, mission_->assets, drawn_);
         draw_scene(build_live_scene(choose_drawn(mission_->scenario, request_.width, request_.height), mission_->assets, drawn_,
-                                    {}, [this](int id, std::int64_t) -> std::optional<Pose> {
+                                    {}, mission_->scenario.start_ns, [this](int id, std::int64_t) -> std::optional<Pose> {
                                       if (id >= world().size()) return std::nullopt;  // it falls later
                                       const PieceState piece = world().piece(id);
                                       if (piece.status == PieceStatus::lost) return std::nullopt;

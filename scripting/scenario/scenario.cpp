@@ -111,16 +111,11 @@ void check_meshes(const OutputScenario& outputs, std::vector<Diagnostic>& mistak
   }
 }
 
-// Where the keys of a camera are.
-std::string camera_key_of(const Scenario& scenario, const MountedCamera& camera) {
-  return scenario.cameras.empty() ? "camera" : "cameras." + camera.name;
-}
-
 // KITTI's pictures are rectified, and each has a scan.
 void check_kitti_odometry(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
-  for (const MountedCamera& camera : all_cameras(scenario)) {
+  for (const MountedCamera& camera : scenario.cameras) {
     const Intrinsics k = camera.camera.intrinsics();
-    const std::string at = camera_key_of(scenario, camera);
+    const std::string at = camera.key();
     if (k.lens == LensModel::fisheye || k.distortion != std::array<double, 5>{})
       mistakes.push_back({"", 0, at + ".lens", "outputs.kitti_odometry has no place for a distorted lens",
                           "a pinhole without distortion", "a lens with distortion", ""});
@@ -139,13 +134,13 @@ void check_kitti_odometry(const Scenario& scenario, std::vector<Diagnostic>& mis
 
 void check_datasets(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   const OutputScenario& outputs = scenario.outputs;
-  const std::vector<MountedCamera> cameras = all_cameras(scenario);
+  const std::vector<MountedCamera>& cameras = scenario.cameras;
   if (outputs.kitti_odometry) check_kitti_odometry(scenario, mistakes);
   if (outputs.lerobot && scenario.record_settling.on)
     mistakes.push_back({"", 0, "outputs.lerobot", "an episode has one rate", "no record_settling", "record_settling.on = true", ""});
   const bool fisheye = cameras.front().camera.intrinsics().lens == LensModel::fisheye;
   for (const MountedCamera& camera : cameras) {
-    const std::string at = camera_key_of(scenario, camera);
+    const std::string at = camera.key();
     if (outputs.coco && !camera.camera.has_channel("instance"))
       mistakes.push_back({"", 0, at + ".channels", "outputs.coco needs the numbers of the pieces in the picture",
                           "a list with `instance`", "no `instance`", ""});

@@ -75,7 +75,7 @@ Frame take(GlContext& context, const GalleryPicture& picture, Piles& piles, int 
   Renderer renderer(context, build_scene(scenario, assets, pile),
                     options);
   const MountedCamera& mounted = scenario.cameras.front();
-  CameraSpec spec = build_camera(scenario, mounted, threads);
+  CameraSpec spec = build_camera(mounted, scenario.seed, threads);
   ask_for_channel(picture.channel, spec);
   Camera camera(renderer, spec, build_flight(mounted, scenario.start_ns, scenario.trajectory.rate_hz,
                                              std::make_shared<const CameraPath>(scenario.trajectory)));

@@ -54,7 +54,7 @@ AssetLibrary load_assets(const Provenance& provenance, const std::vector<std::st
 
 // The URDF files of a mission's robots, looked for in these folders: their contents and paths go into the library, and
 // their folders into library.folders. Throws InputError for one that is missing or no URDF.
-void add_robot_files(const Scenario& scenario, const std::vector<std::string>& folders, AssetLibrary& library);
+void add_robot_files(const std::vector<RobotItem>& robots, const std::vector<std::string>& folders, AssetLibrary& library);
 // The same of a provenance. Throws InputError, too, where one has another content than the provenance says. That of an
 // older program does not say.
 void recall_robots(const Provenance& provenance, const std::vector<std::string>& folders, AssetLibrary& library);

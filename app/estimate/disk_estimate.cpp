@@ -141,6 +141,7 @@ double count_frames(const std::vector<RecordedSize>& cameras) {
 void add_recordings(const Scenario& s, const std::vector<RecordedSize>& cameras, Estimate& sizes) {
   for (const RecordingFormat& format : recording_formats()) {
     if (!is_wanted(format, s)) continue;
+    if (!format.beside.empty()) sizes[format.beside] = 30000;
     const bool apart = format.one_camera && s.names_cameras();
     std::uint64_t& sum = sizes[apart ? kCamerasFolder : format.leaves];
     for (const RecordedSize& size : cameras) sum += std::uint64_t(format.estimate(size));
@@ -166,7 +167,7 @@ Estimate estimate_outputs(const Scenario& s, const AssetLibrary& assets) {
   const PileModelSize pile = size_of_pile(s, assets);
   const std::vector<RecordedSize> recorded = sizes_of_recording(s, pile.pieces);
   sizes["pile.bin"] =
-      std::uint64_t(pile.pieces * kPieceBytes + count_building_pieces(s, assets) * kBondedPieceBytes + 2000);
+      std::uint64_t(pile.pieces * kPieceBytes + count_building_pieces(s.pile, assets) * kBondedPieceBytes + 2000);
   if (s.victims.count > 0) sizes["victims.json"] = std::uint64_t(s.victims.count) * 400;
   if (s.fines.amount > 0) sizes["fines.bin"] = std::uint64_t(size_of_fines(s.fines).bytes);
   sizes["manifest.json"] = std::uint64_t(count_frames(recorded) * 250 + kManifestBytes);
@@ -189,9 +190,9 @@ std::uint64_t estimate_bytes(const Scenario& s, const AssetLibrary& assets, bool
   return sum;
 }
 
-double count_building_pieces(const Scenario& scenario, const AssetLibrary& assets) {
+double count_building_pieces(const PileScenario& pile, const AssetLibrary& assets) {
   PileCount size(assets);
-  if (scenario.pile.building.given()) add_building(scenario.pile, assets, size);
+  if (pile.building.given()) add_building(pile, assets, size);
   return size.pieces;
 }
 

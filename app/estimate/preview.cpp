@@ -64,7 +64,7 @@ RunPreview preview_run(RunKind kind, const Scenario& s, const AssetLibrary& asse
   RunPreview preview;
   const PileScenario& pile = s.pile;
   preview.pieces = double(pile.layers) * pile.pieces_per_layer + double(pile.placed.size()) +
-                   count_building_pieces(s, assets);
+                   count_building_pieces(pile, assets);
   if (kind != RunKind::settle) {
     for (std::size_t i = 0; i < s.cameras.size(); ++i) {
       const CameraScenario& camera = s.cameras[i].camera;

@@ -112,7 +112,7 @@ ResolvedMission resolve_render(const RunRequest& request, const FinishedRun& sav
   mission.provenance.assets = pile_from->assets;
   mission.provenance.pile_from = pile_from;
   load_with_progress(mission, context, [&] { return load_assets_of(saved, request.asset_packs); });
-  add_robot_files(mission.scenario, {std::filesystem::path(request.mission).parent_path().string()}, mission.assets);
+  add_robot_files(mission.scenario.robots, {std::filesystem::path(request.mission).parent_path().string()}, mission.assets);
   mission.provenance.robots = mission.assets.robots;
   return mission;
 }

@@ -1,5 +1,4 @@
 // The stage from a planned flight over a settled pile to recorded frames.
-#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -21,6 +20,7 @@
 #include "io/base/csv_text.h"
 #include "io/recording/recording_queue.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/system/disk_cache.h"
 #include "render/gl/gl_context.h"
 #include "render/view/drawn_by.h"
 
@@ -33,13 +33,6 @@ void write_legend(const std::vector<std::string>& names, RunFolder& folder) {
   for (std::size_t i = 0; i < names.size(); ++i) text += std::to_string(i) + "," + csv_text(names[i]) + "\n";
   write_text_file(folder.file("labels.csv"), text);
   folder.add("labels.csv");
-}
-
-// What the contact sheet says at its top.
-std::string title_of(const ResolvedMission& mission, const PileState& pile) {
-  return std::filesystem::path(mission.provenance.script.path).stem().string() + "   seed " +
-         std::to_string(mission.scenario.seed) + "   " + std::to_string(pile.pieces.size()) +
-         " pieces   state " + hex64(pile.state_hash());
 }
 
 std::map<std::string, std::string> describe_environment(const GlInfo& info, int threads) {
@@ -220,12 +213,9 @@ void finish_recording(const ResolvedMission& mission, const Legend& legend, cons
   context.progress.finish(std::to_string(set.names.size()) + " files");
 }
 
-// Links follow the pieces, as their numbers do.
 void add_robots(const DrivenRobots& robots, std::uint16_t label, Recording& recording) {
   recording.mount = robots.mount;
-  for (const RobotModel& model : robots.moved.models)
-    for (const RobotLink& link : model.links)
-      recording.legend.pieces.push_back({label, model.name + "/" + link.name});
+  for (const RobotModel& model : robots.moved.models) add_links(model, label, recording.legend);
 }
 
 // Frames into files, until the last file is complete.
@@ -236,8 +226,8 @@ void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const 
   PreparedLeg prepared = prepare_leg(legs.front(), mission, seen, {}, gl, folder, context, taking);
   Recording recording = describe_recording(mission.scenario, mission.assets, pile, seen.robots.records);
   add_robots(seen.robots, ClassLabels(mission.scenario, mission.assets.types).of_robots(), recording);
-  RecorderSet set = make_recorders(
-      {mission.scenario, recording, count_frames(legs, legs.size()), title_of(mission, pile)}, folder.path());
+  RecorderSet set = make_recorders({mission.scenario, recording, count_frames(legs, legs.size()),
+                                    recording_title(mission.provenance.script.path, mission.scenario.seed, pile)}, folder.path());
   folder.expect(set.names);
   add_live_recorders(set, context.options, ros_options(mission.scenario.outputs, recording));
   RecordingQueue queue(std::move(set.recorders));

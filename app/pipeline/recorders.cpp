@@ -7,7 +7,9 @@
 #include "app/provenance/earlier_files.h"
 #include "app/scene/build_scene.h"
 #include "app/surroundings/seen_surroundings.h"
+#include "app/victims/place_victims.h"
 #include "io/recording/one_camera.h"
+#include "kernel/base/hash.h"
 #include "kernel/base/system/output_files.h"
 
 namespace rubble {
@@ -106,9 +108,19 @@ Recording describe_recording(const Scenario& scenario, const AssetLibrary& asset
     recording.legend.pieces.push_back(
         {labels.of_type(piece.type), assets.types[type].name});
   }
+  for (const Victim& victim : find_victims(pile)) recording.legend.pieces.at(std::size_t(victim.piece)).victim = true;
   add_fines(labels, pile, recording.legend);
   add_surroundings(labels, pile, recording.legend);
   return recording;
+}
+
+void add_links(const RobotModel& robot, std::uint16_t label, Legend& legend) {
+  for (const RobotLink& link : robot.links) legend.pieces.push_back({label, robot.name + "/" + link.name});
+}
+
+std::string recording_title(const std::string& script, std::uint64_t seed, const PileState& pile) {
+  return std::filesystem::path(script).stem().string() + "   seed " + std::to_string(seed) + "   " +
+         std::to_string(pile.pieces.size()) + " pieces   state " + hex64(pile.state_hash());
 }
 
 RecorderSet make_recorders(const RecordingInputs& inputs, const std::string& folder) {
@@ -119,6 +131,7 @@ RecorderSet make_recorders(const RecordingInputs& inputs, const std::string& fol
     const std::string path = folder + "/" + format.leaves;
     remove_folder_of_killed_run(path);
     set.names.push_back(format.leaves);
+    if (!format.beside.empty()) set.names.push_back(format.beside);
     set.recorders.push_back(format.make(path, inputs));
   }
   if (apart) add_recorders_of_cameras(inputs, folder, set);

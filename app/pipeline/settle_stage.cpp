@@ -8,6 +8,7 @@
 #include "app/pipeline/stages.h"
 #include "app/provenance/earlier_files.h"
 #include "app/scene/build_scene.h"
+#include "app/scene/look_pictures.h"
 #include "app/simulators/build_sim_scene.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
@@ -306,7 +307,9 @@ void write_pile_files(const ResolvedMission& mission, const SettledPile& pile, R
   for (const std::string& format : formats)
     for (const std::string& name : export_pile(built.model, format, folder.path())) folder.add(name);
   if (outputs.track) {
-    write_track_glb(folder.file("track.glb"), build_track_model(mission.assets, pile.state), pile.track);
+    PileModel moving = build_track_model(mission.assets, pile.state);
+    add_look_pictures(moving, context.threads());
+    write_track_glb(folder.file("track.glb"), moving, pile.track);
     folder.add("track.glb");
   }
   const std::size_t files = formats.size() + (outputs.track ? 1 : 0);

@@ -7,7 +7,7 @@
 
 namespace rubble {
 
-CameraSpec build_camera(const Scenario& scenario, const MountedCamera& mounted, int threads) {
+CameraSpec build_camera(const MountedCamera& mounted, std::uint64_t seed, int threads) {
   const CameraScenario& camera = mounted.camera;
   CameraSpec spec;
   spec.intrinsics = camera.intrinsics();
@@ -19,7 +19,7 @@ CameraSpec build_camera(const Scenario& scenario, const MountedCamera& mounted, 
   spec.sensor = camera.sensor;
   spec.depth_sensor = mounted.depth_sensor;
   spec.event_camera = mounted.event_camera;
-  spec.seed = scenario.seed;
+  spec.seed = seed;
   // On a link, each camera bears a lamp of its own.
   if (!mounted.is_rig() && !mounted.ride.on()) spec.rig_from_camera = mounted.rig_from_camera();
   spec.threads = threads;

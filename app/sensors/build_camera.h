@@ -13,8 +13,8 @@
 
 namespace rubble {
 
-// A camera of the mission, with what is in its place.
-CameraSpec build_camera(const Scenario& scenario, const MountedCamera& camera, int threads);
+// A camera of the mission, with what is in its place. seed: of the mission.
+CameraSpec build_camera(const MountedCamera& camera, std::uint64_t seed, int threads);
 // Each camera with a name has noise of its own. noise_seed: of all sensors.
 std::uint64_t camera_seed(const MountedCamera& camera, std::uint64_t noise_seed);
 // Where it is when its carrier is there: the rig, or a link.

@@ -11,7 +11,7 @@ namespace rubble {
 namespace {
 
 CameraSpec build_spec(const SensorParts& parts, const MountedCamera& mounted, std::size_t number) {
-  CameraSpec spec = build_camera(parts.scenario, mounted, parts.threads);
+  CameraSpec spec = build_camera(mounted, parts.scenario.seed, parts.threads);
   spec.number = int(number);
   spec.seed = camera_seed(mounted, parts.noise_seed);
   return spec;

@@ -39,7 +39,9 @@ Session::Session(const ResolvedMission& mission, const PileState& pile, std::vec
       robots_(std::move(robots)),
       records_(describe_robots(scenario_, robots_)),
       history_(scenario_, robots_, run_options_.step, start_ns_),
-      own_(robots_.size()) {
+      own_(robots_.size()),
+      bases_(robots_.size()) {
+  run_options_.restarts = options.restarts;
   for (const MissionRobot& robot : robots_) seen_.models.push_back(robot.model);
 }
 
@@ -70,14 +72,15 @@ void Session::start() {
   senses_ = std::make_unique<RobotSenses>(scenario_, start_ns_);
   commands_.assign(robots_.size(), std::nullopt);
   sensors_.clear(), measured_.clear(), logs_.clear(), seen_.first_piece.clear();
-  run_ = std::make_unique<RobotRun>(laid_, pile_, run_options_);
+  if (run_ && options_.restarts) run_->restart();
+  else run_ = std::make_unique<RobotRun>(laid_, pile_, run_options_);
   for (std::size_t i = 0; i < robots_.size(); ++i)
     logs_.emplace_back(robots_[i].model, start_ns_, odometry_noise(scenario_, i));
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const RobotController own = make_controller(i);
     const RobotController control = with_mimics(
         [this, i, own](const RobotSense& sense) { return commands_[i] ? *commands_[i] : own(sense); }, robots_[i].model.mimics);
-    run_->add(robots_[i].model, calc_base_pose(scenario_.robots[i], robots_[i]),
+    run_->add(robots_[i].model, bases_[i] ? *bases_[i] : calc_base_pose(scenario_.robots[i], robots_[i]),
               [this, control, &log = logs_[i]](const RobotSense& sense) {
                 if (options_.observed || options_.recorded) log.note(sense);
                 return control(sense);

@@ -2,21 +2,12 @@
 
 #include "io/base/folder_writer.h"
 #include "io/base/number_text.h"
+#include "io/datasets/pose_rows.h"
 #include "io/image/image_file.h"
 #include "io/recording/frame_order.h"
 
 namespace rubble {
 namespace {
-
-// Luma of ITU-R BT.601, in integers.
-GrayImage to_gray(const Intrinsics& k, const std::vector<std::uint8_t>& rgb) {
-  GrayImage image{k.width, k.height, std::vector<std::uint8_t>(rgb.size() / 3)};
-  for (std::size_t i = 0; i < image.values.size(); ++i) {
-    const unsigned sum = 299u * rgb[3 * i] + 587u * rgb[3 * i + 1] + 114u * rgb[3 * i + 2];
-    image.values[i] = static_cast<std::uint8_t>((sum + 500) / 1000);
-  }
-  return image;
-}
 
 std::string row(std::int64_t stamp_ns, const std::vector<double>& values) {
   std::string line = std::to_string(stamp_ns);
@@ -32,11 +23,8 @@ std::string list(const std::vector<double>& values) {
 
 // Where a sensor sits in the body, as 4x4 row by row.
 std::string mounting(const Pose& body_from_sensor) {
-  const Mat3 r = body_from_sensor.rotation.matrix();
-  const Vec3& t = body_from_sensor.translation;
-  std::vector<double> values;
-  for (int i = 0; i < 3; ++i)
-    for (const double v : {r.rows[i].x, r.rows[i].y, r.rows[i].z, t[i]}) values.push_back(v);
+  const auto rows = pose_rows(body_from_sensor);
+  std::vector<double> values(rows.begin(), rows.end());
   for (const double v : {0.0, 0.0, 0.0, 1.0}) values.push_back(v);
   return "T_BS:\n  cols: 4\n  rows: 4\n  data: " + list(values) + "\n";
 }
@@ -152,7 +140,9 @@ class EurocRecorder : public Recorder {
 
   void add_picture(const std::string& name, const Frame& frame,
                    const std::vector<std::uint8_t>& rgb) {
-    folder_.add(name, [k = frame.intrinsics, rgb] { return encode_png(to_gray(k, rgb)); });
+    folder_.add(name, [image = RgbImage{frame.intrinsics.width, frame.intrinsics.height, rgb}] {
+      return encode_png(to_gray(image));
+    });
   }
 
   // Of the rig, once for all frames of one instant.

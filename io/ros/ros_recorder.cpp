@@ -5,6 +5,7 @@
 #include "io/image/depth_encoding.h"
 #include "io/image/image_file.h"
 #include "io/image/jpeg_file.h"
+#include "io/ros/vector_colours.h"
 #include "io/recording/frame_order.h"
 #include "io/ros/robot_topics.h"
 #include "render/streams/image_streams.h"
@@ -101,6 +102,7 @@ class RosRecorder : public Recorder {
 
  private:
   bool compressed() const { return options_.pictures != RosPictures::raw; }
+  bool has_colours(const ImageStream& stream) const { return options_.vector_colours && stream.components > 1 && std::holds_alternative<PixelMaker<float>>(stream.make); }
   bool packed_depth() const { return compressed() && options_.depth == RosDepth::millimetres; }
 
   // Other sensors stand among the topics of the first camera, before its ground truth.
@@ -159,7 +161,7 @@ class RosRecorder : public Recorder {
       topics.true_depth = file_->add(truth + "depth/image", ros::kImage, false);
     }
     for (const ImageStream* stream : camera.channels.truth)
-      topics.truth.push_back(file_->add(truth + stream->name + "/image", ros::kImage, false));
+      topics.truth.push_back(file_->add(truth + stream->name + (has_colours(*stream) ? "/colours/image" : "/image"), ros::kImage, false));
   }
 
   std::uint32_t add_picture(const std::string& topic) {
@@ -291,6 +293,11 @@ class RosRecorder : public Recorder {
     const StreamSet& streams = camera.channels.truth;
     for (std::size_t i = 0; i < streams.size(); ++i) {
       const ImageStream& stream = *streams[i];
+      if (has_colours(stream)) {
+        const auto& values = *std::get<const std::vector<float>*>(*find_image(frame, stream));
+        send_image(topics.truth[i], frame, camera.optical, "rgb8", 3, colour_vectors(stream, values, frame.intrinsics.width));
+        continue;
+      }
       std::visit(
           [&](const auto* values) {
             send_image(topics.truth[i], frame, camera.optical, stream.ros_encoding(),

@@ -111,6 +111,56 @@ void check_meshes(const OutputScenario& outputs, std::vector<Diagnostic>& mistak
   }
 }
 
+// Where the keys of a camera are.
+std::string camera_key_of(const Scenario& scenario, const MountedCamera& camera) {
+  return scenario.cameras.empty() ? "camera" : "cameras." + camera.name;
+}
+
+// KITTI's pictures are rectified, and each has a scan.
+void check_kitti_odometry(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  for (const MountedCamera& camera : all_cameras(scenario)) {
+    const Intrinsics k = camera.camera.intrinsics();
+    const std::string at = camera_key_of(scenario, camera);
+    if (k.lens == LensModel::fisheye || k.distortion != std::array<double, 5>{})
+      mistakes.push_back({"", 0, at + ".lens", "outputs.kitti_odometry has no place for a distorted lens",
+                          "a pinhole without distortion", "a lens with distortion", ""});
+    const double rate = camera.rate_hz.value_or(scenario.trajectory.rate_hz);
+    for (const SensorItem& sensor : scenario.sensors) {
+      const auto spec = sensor.figures->scan_spec();
+      if (!spec || spec->planar()) continue;
+      if (sensor.rate() != rate)
+        mistakes.push_back({"", 0, sensor.key() + ".rate_hz",
+                            "outputs.kitti_odometry has one scan for each picture", format_number(rate) + " Hz, the rate of " + at,
+                            format_number(sensor.rate()) + " Hz", ""});
+      break;  // the first one is recorded
+    }
+  }
+}
+
+void check_datasets(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  const OutputScenario& outputs = scenario.outputs;
+  const std::vector<MountedCamera> cameras = all_cameras(scenario);
+  if (outputs.kitti_odometry) check_kitti_odometry(scenario, mistakes);
+  if (outputs.lerobot && scenario.record_settling.on)
+    mistakes.push_back({"", 0, "outputs.lerobot", "an episode has one rate", "no record_settling", "record_settling.on = true", ""});
+  const bool fisheye = cameras.front().camera.intrinsics().lens == LensModel::fisheye;
+  for (const MountedCamera& camera : cameras) {
+    const std::string at = camera_key_of(scenario, camera);
+    if (outputs.coco && !camera.camera.has_channel("instance"))
+      mistakes.push_back({"", 0, at + ".channels", "outputs.coco needs the numbers of the pieces in the picture",
+                          "a list with `instance`", "no `instance`", ""});
+    if (outputs.nerfstudio && (camera.camera.intrinsics().lens == LensModel::fisheye) != fisheye)
+      mistakes.push_back({"", 0, at + ".lens.model", "outputs.nerfstudio has one lens model for all cameras",
+                          fisheye ? "fisheye, as the first camera" : "pinhole or plumb_bob, as the first camera",
+                          fisheye ? "another one" : "fisheye", ""});
+    if (outputs.lerobot && camera.rate_hz.value_or(scenario.trajectory.rate_hz) !=
+                               cameras.front().rate_hz.value_or(scenario.trajectory.rate_hz))
+      mistakes.push_back({"", 0, at + ".rate_hz", "outputs.lerobot has one rate for all cameras",
+                          format_number(cameras.front().rate_hz.value_or(scenario.trajectory.rate_hz)) + " Hz",
+                          format_number(camera.rate_hz.value_or(scenario.trajectory.rate_hz)) + " Hz", ""});
+  }
+}
+
 void check_rawlog(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   if (scenario.outputs.rawlog_format == RawlogFormat::observations) return;
   const auto has_odometry = [](const RobotItem& robot) { return kind_of(robot).has_sides(robot); };
@@ -196,6 +246,7 @@ std::vector<Diagnostic> find_mistakes(const MissionForm& form) {
   copy.imu_on = form.imu_on || (form.rest.imus.empty() && (form.imu.topic || form.imu.frame_id));
   check_sensor_names(copy.normalized(), mistakes);
   check_meshes(scenario.outputs, mistakes);
+  check_datasets(scenario, mistakes);
   check_stamps(scenario, mistakes);
   check_rawlog(scenario, mistakes);
   check_record_settling(scenario.record_settling, mistakes);

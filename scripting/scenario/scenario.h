@@ -118,6 +118,9 @@ enum class DepthEncoding {
 
 enum class PictureEncoding { raw, png, jpeg };
 
+// Of streams with several values a pixel, such as normals.
+enum class VectorEncoding { values, colours };
+
 enum class RawlogFormat {
   observations,  // a sequence of observations
   actions,       // actions of a robot and frames of observations in turn
@@ -136,6 +139,11 @@ struct OutputScenario {
   bool frames = false;              // plain PNG and EXR: a folder
   bool pcd = false;                 // PCL: a folder of a file a scan
   bool kitti = false;               // KITTI: a folder of a file a scan
+  bool kitti_odometry = false;      // KITTI odometry: a folder with pictures, scans and poses
+  bool nerfstudio = false;          // nerfstudio and splats: a folder with transforms.json
+  bool coco = false;                // COCO: a folder with boxes and masks
+  bool webdataset = false;          // WebDataset: a folder of tar files
+  bool lerobot = false;             // LeRobot v3: a folder of Parquet files and videos
   bool stl = true;                  // pile.stl
   bool track = false;               // motion of the pieces: track.bin and, as glTF animation, track.glb
   std::vector<std::string> meshes;  // the pile in further formats, of export_names()
@@ -144,6 +152,7 @@ struct OutputScenario {
   bool preview = true;              // preview.png, a contact sheet
   DepthEncoding depth = DepthEncoding::millimetres;  // in bag and MCAP file
   PictureEncoding pictures = PictureEncoding::raw;   // in bag and MCAP file
+  VectorEncoding vectors = VectorEncoding::values;   // in bag and MCAP file
 };
 
 // Records the pile while it settles, by a standing camera before its flight.

@@ -367,6 +367,16 @@ void add_outputs(Schema& k, OutputScenario& o) {
   k.value("outputs.pcd", o.pcd, "Each scan as a PCD file, and the true motion of its sensor: the folder pcd.");
   k.value("outputs.kitti", o.kitti,
           "Each scan as a KITTI binary file, with times and poses: the folder kitti.");
+  k.value("outputs.kitti_odometry", o.kitti_odometry,
+          "A KITTI odometry sequence: rectified pictures, the first LiDAR's scans, calibration and poses: the folder "
+          "kitti_odometry.");
+  k.value("outputs.nerfstudio", o.nerfstudio,
+          "Pictures, depth, true poses and points for radiance fields and splats: the folder nerfstudio.");
+  k.value("outputs.coco", o.coco,
+          "Boxes and masks of all pieces in COCO's format; each camera needs the channel `instance`: the folder coco.");
+  k.value("outputs.webdataset", o.webdataset, "Every channel of a camera in tar files of WebDataset: the folder webdataset.");
+  k.value("outputs.lerobot", o.lerobot,
+          "A LeRobot v3 dataset of one episode, with the states of the robots and videos: the folder lerobot.");
   k.value("outputs.stl", o.stl, "The settled pile as a mesh: pile.stl.");
   k.value("outputs.track", o.track,
           "The motion of every piece while the pile settled: track.bin, and track.glb, a glTF animation.");
@@ -381,6 +391,9 @@ void add_outputs(Schema& k, OutputScenario& o) {
   k.choice(
       "outputs.pictures", o.pictures, {"raw", "png", "jpeg"},
       "Pictures in bag and MCAP files: raw, or CompressedImage; `jpeg` is lossy for colour, never for depth.");
+  k.choice("outputs.vectors", o.vectors, {"values", "colours"},
+           "`normals`, `flow` and `position` in bag and MCAP files: 32FC2 and 32FC3, which hold every value, or rgb8, which every "
+           "viewer shows.");
 }
 
 void add_voids(Schema& k, VoidScenario& v) {

@@ -179,8 +179,10 @@ TEST_P(RobotCdr, MessagesEqualFastCdr) {
   EXPECT_EQ(ros::joint_state(kRos2, header_, names, q, u, effort), joints.bytes());
   FastCdr odometry;
   odometry.header(header_) << std::string("base_link");
-  odometry.pose(kStart) << std::array<double, 36>{};
-  odometry.vector({1, 2, 3}).vector({4, 5, 6}) << std::array<double, 36>{};
+  std::array<double, 36> exact{};
+  for (std::size_t axis = 0; axis < 6; ++axis) exact[7 * axis] = 1e-9;
+  odometry.pose(kStart) << exact;
+  odometry.vector({1, 2, 3}).vector({4, 5, 6}) << exact;
   EXPECT_EQ(ros::true_odometry(kRos2, header_, "base_link", kStart, {1, 2, 3}, {4, 5, 6}), odometry.bytes());
   RobotSample::Odometry reading{kStart, 0.5, -0.25, {{{4, 1, 2}, {1, 5, 3}, {2, 3, 6}}}, 7, 8};
   std::array<double, 36> of_pose{}, of_twist{};

@@ -181,7 +181,7 @@ void Inspector::draw_scene(const Scene& scene) {
 
 void Inspector::open_eye() {
   const Scenario drawn = choose_drawn(mission_->scenario, request_.width, request_.height);
-  eye_ = std::make_unique<Camera>(*renderer_, build_camera(drawn, drawn.cameras.front(), run_->threads()), Flight{});
+  eye_ = std::make_unique<Camera>(*renderer_, build_camera(drawn.cameras.front(), drawn.seed, run_->threads()), Flight{});
   frames_ = 0;
 }
 
@@ -444,7 +444,7 @@ void Inspector::add_cameras(std::vector<OverlayLine>& lines) {
       if (flight_.empty()) return std::nullopt;
       return flight_[frame].world_from_camera;
     };
-    for (const PlacedCamera& camera : place_cameras(scenario, carrier_of)) add_frustum(camera, kFrustumLength, lines);
+    for (const PlacedCamera& camera : place_cameras(scenario.cameras, carrier_of)) add_frustum(camera, kFrustumLength, lines);
   }
 }
 
@@ -475,7 +475,7 @@ std::vector<PictureLabel> Inspector::legend() const {
   if (choice_.hulls) rows.push_back({"hulls", Overlay::kHullColour});
   if (choice_.contacts) rows.push_back({"contact forces, 0.1 mm/N", Overlay::kContactColour});
   if (choice_.cameras)
-    for (const PlacedCamera& camera : place_cameras(mission_->scenario, [](const MountedCamera&) { return Pose(); }))
+    for (const PlacedCamera& camera : place_cameras(mission_->scenario.cameras, [](const MountedCamera&) { return Pose(); }))
       rows.push_back({"view of " + camera.name, camera.colour});
   if (choice_.voids) rows.push_back(voids_->label());
   if (spring_.holds()) {

@@ -26,21 +26,49 @@ std::string list(const std::vector<double>& values) {
 std::string row(const std::string& key, double value) { return key + ": " + real(value) + "\n"; }
 std::string row(const std::string& key, int value) { return key + ": " + std::to_string(value) + "\n"; }
 
+// A place on the flying rig, or on a link of a robot.
+struct Mount {
+  Carrier carrier;  // with the name of the link; empty: the rig flies
+  Pose carrier_from_it;
+};
+
+Mount mount_of(const Carrier& ride, const Pose& place, const Scenario& s, const FirstLinks& first_links) {
+  Mount mount{ride, place};
+  if (!ride.on() && s.trajectory.ride.on()) mount = {s.trajectory.ride, s.trajectory.ride.link_from_rig() * place};
+  const auto first = first_links.find(mount.carrier.robot);
+  if (mount.carrier.link.empty() && first != first_links.end()) mount.carrier.link = first->second;
+  return mount;
+}
+
+// An inertial unit, and where it is in the body of a camera.
+struct UnitBeside {
+  ImuScenario unit;
+  Pose body_from_imu;
+};
+
+// The first that moves with the camera.
+std::optional<UnitBeside> find_unit(const Scenario& s, const MountedCamera& camera, const FirstLinks& first_links) {
+  const Mount eye = mount_of(camera.ride, camera.rig_from_camera(), s, first_links);
+  for (const ImuScenario& unit : s.imus) {
+    if (unit.ride == camera.ride) return UnitBeside{unit, camera.rig_from_camera().inverse() * unit.rig_from_imu()};
+    const Mount felt = mount_of(unit.ride, unit.rig_from_imu(), s, first_links);
+    if (felt.carrier == eye.carrier) return UnitBeside{unit, eye.carrier_from_it.inverse() * felt.carrier_from_it};
+  }
+  return std::nullopt;
+}
+
 struct Camera {
   const Scenario& scenario;
   MountedCamera mounted;
   Intrinsics k;
   bool fisheye, stereo;
-  std::optional<ImuScenario> imu;  // the first on the camera's carrier
+  std::optional<ImuScenario> imu;  // the first that moves with the camera
+  Pose body_from_imu;
 
-  Camera(const Scenario& s, const MountedCamera& of)
+  Camera(const Scenario& s, const MountedCamera& of, const std::optional<UnitBeside>& beside)
       : scenario(s), mounted(of), k(mounted.camera.intrinsics()),
-        fisheye(k.lens == LensModel::fisheye), stereo(mounted.camera.stereo_baseline > 0), imu(find_unit(s, of)) {}
-
-  static std::optional<ImuScenario> find_unit(const Scenario& s, const MountedCamera& camera) {
-    for (const ImuScenario& unit : s.imus)
-      if (unit.ride == camera.ride) return unit;
-    return std::nullopt;
+        fisheye(k.lens == LensModel::fisheye), stereo(mounted.camera.stereo_baseline > 0) {
+    if (beside) imu = beside->unit, body_from_imu = beside->body_from_imu;
   }
   // radtan has no k3; what has one is said in the card.
   std::vector<double> four() const {
@@ -56,11 +84,8 @@ using Rows = std::vector<std::vector<double>>;
 
 // Points of the inertial unit in the optical frame (Z forward, X right) of the camera, or of the right one.
 Rows optical_from_imu(const Camera& c, bool right) {
-  const Pose rig_from_camera = c.mounted.rig_from_camera();
-  const Pose rig_from_imu = c.imu->rig_from_imu();
-  const Pose body_from_imu = rig_from_camera.inverse() * rig_from_imu;
-  const Mat3 turn = body_from_imu.rotation.matrix();
-  const Vec3& shift = body_from_imu.translation;
+  const Mat3 turn = c.body_from_imu.rotation.matrix();
+  const Vec3& shift = c.body_from_imu.translation;
   const auto row = [](const Vec3& v, double last, double sign) {
     return std::vector<double>{sign * v.x, sign * v.y, sign * v.z, last};
   };
@@ -221,10 +246,12 @@ std::string rtabmap(const Camera& c) {
 
 }  // namespace
 
-std::map<std::string, std::string> make_slam_settings(const Scenario& scenario) {
+std::map<std::string, std::string> make_slam_settings(const Scenario& scenario, const FirstLinks& first_links) {
   const std::vector<MountedCamera>& cameras = scenario.cameras;
-  const auto with_unit = std::find_if(cameras.begin(), cameras.end(), [&](const MountedCamera& c) { return Camera::find_unit(scenario, c); });
-  const Camera camera(scenario, with_unit == cameras.end() ? cameras.front() : *with_unit);
+  const auto unit_of = [&](const MountedCamera& c) { return find_unit(scenario, c, first_links); };
+  const auto with_unit = std::find_if(cameras.begin(), cameras.end(), unit_of);
+  const MountedCamera& chosen = with_unit == cameras.end() ? cameras.front() : *with_unit;
+  const Camera camera(scenario, chosen, unit_of(chosen));
   std::map<std::string, std::string> files;
   files["orbslam3.yaml"] = orbslam3(camera);
   files["kalibr/camchain.yaml"] = camera_chain(camera);

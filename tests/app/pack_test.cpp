@@ -214,6 +214,14 @@ TEST(Settings, AreOfTheFirstCameraThatHasAUnit) {
   EXPECT_IN("rostopic: /unit", files["kalibr/imu.yaml"]);
   EXPECT_IN("camera_name: low", files["camera.yaml"]);
   EXPECT_EQ(files.count("openvins/estimator_config.yaml"), 1u);
+  // A rig that rides on the same link moves with it, too.
+  s.trajectory.ride.robot = "tank", s.trajectory.ride.link = "base_link", s.trajectory.ride.position = {0.3, 0, 0.2};
+  s.imus[0].position = {0.1, 0, 0};
+  EXPECT_IN("rostopic: /low/rgb/image_raw", make_slam_settings(s)["kalibr/camchain.yaml"]);
+  files = make_slam_settings(s, {{"tank", "base_link"}});
+  EXPECT_IN("rostopic: /high/rgb/image_raw", files["kalibr/camchain.yaml"]);
+  // The unit is 0.2 m behind the camera and 0.2 m below.
+  EXPECT_IN("T_cam_imu:\n  - [0.0, -1.0, 0.0, 0.0]\n  - [0.0, 0.0, -1.0, 0.2]\n  - [1.0, 0.0, 0.0, -0.2]", files["kalibr/camchain.yaml"]);
   s.imus.clear();
   files = make_slam_settings(s);
   EXPECT_IN("rostopic: /high/rgb/image_raw", files["kalibr/camchain.yaml"]);

@@ -1,8 +1,11 @@
 // Sensors over a pile that rests: frames of the renderer, depth by exact rays.
 #include <pybind11/stl.h>
 
-#include "app/pipeline/stages.h"
+#include <array>
+#include <cmath>
+
 #include "app/scene/build_scene.h"
+#include "app/sensors/camera_renderers.h"
 #include "kernel/base/parallel.h"
 #include "python/arrays.h"
 #include "python/parts.h"
@@ -12,15 +15,20 @@
 
 namespace rubble::python {
 
-Intrinsics pinhole(int width, int height, double fov_deg) {
+Intrinsics pinhole(int width, int height, double fov_deg, double shift_x, double shift_y) {
   if (width < 16 || height < 16 || width > 8192 || height > 8192)
     throw InputError({"", 0, "width", "out of range", "an image of 16 to 8192 pixels a side",
                       std::to_string(width) + " x " + std::to_string(height), ""});
   if (!(fov_deg >= 1 && fov_deg <= 170))
     throw InputError({"", 0, "fov_deg", "out of range", "1 to 170", std::to_string(fov_deg), ""});
+  if (!(std::abs(shift_x) <= 0.5 * width && std::abs(shift_y) <= 0.5 * height))
+    throw InputError({"", 0, "shift", "out of range", "at most half a side of the image",
+                      std::to_string(shift_x) + ", " + std::to_string(shift_y), ""});
   CameraScenario camera;
   camera.width = width, camera.height = height, camera.fov_deg = fov_deg;
-  return camera.intrinsics();
+  Intrinsics k = camera.intrinsics();
+  k.cx += shift_x, k.cy += shift_y;
+  return k;
 }
 
 py::array_t<double> camera_matrix(const Intrinsics& k) {
@@ -39,11 +47,12 @@ class FrameRenderer {
   FrameRenderer(SharedPile settled, int threads)
       : settled_(std::move(settled)),
         gl_({-1, threads}),
-        renderer_(prepare_renderer(scene_of(*settled_), settled_->mission.scenario, gl_, threads, {})) {}
+        renderer_(prepare_renderer(scene_of(*settled_), settled_->mission.scenario.cameras.front().camera.colour, gl_, {threads, {}, {}})) {}
 
-  py::dict render(const DoubleArray& world_from_camera, int width, int height, double fov_deg, int number) {
+  py::dict render(const DoubleArray& world_from_camera, int width, int height, double fov_deg, int number,
+                  const std::array<double, 2>& shift) {
     const Pose pose = to_pose(world_from_camera, "pose");
-    const Intrinsics k = pinhole(width, height, fov_deg);
+    const Intrinsics k = pinhole(width, height, fov_deg, shift[0], shift[1]);
     Frame frame = renderer_->render(pose, k, number, settled_->mission.scenario.start_ns);
     py::dict out;
     out["rgb"] = take_vector(std::move(frame.rgb), {height, width, 3});
@@ -91,7 +100,7 @@ void add_sensors(py::module_& module) {
         return std::make_unique<FrameRenderer>(s, threads);
       }))
       .def("render", &FrameRenderer::render, py::arg("pose"), py::arg("width") = 640, py::arg("height") = 480,
-           py::arg("fov_deg") = 90.0, py::arg("number") = 0);
+           py::arg("fov_deg") = 90.0, py::arg("number") = 0, py::arg("shift") = std::array<double, 2>{0, 0});
   py::class_<DepthCamera>(module, "_DepthCamera")
       .def(py::init([](const SharedPile& s, int width, int height, double fov_deg,
                        double max_range, int threads) {

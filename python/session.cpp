@@ -33,8 +33,8 @@ class MissionSession {
 
  public:
   // The robots of the mission.
-  MissionSession(SharedPile settled, bool depth, int threads)
-      : settled_(std::move(settled)), context_(quiet(threads)), session_(with_lines([&] { return make(depth); })) {
+  MissionSession(SharedPile settled, bool observed, bool depth, int threads)
+      : settled_(std::move(settled)), context_(quiet(threads)), session_(with_lines([&] { return make(observed, depth); })) {
     with_lines([&] {
       const py::gil_scoped_release free;
       session_->start();
@@ -43,20 +43,42 @@ class MissionSession {
   }
 
   // One bundled robot instead of them, whose motors are off until the first command. Its first link is at `base`.
-  MissionSession(SharedPile settled, const std::string& kind, const Pose& base, bool fixed_debris, int threads)
+  // friction: instead of the model's.
+  MissionSession(SharedPile settled, const std::string& kind, const Pose& base, bool fixed_debris, int threads,
+                 std::optional<double> friction)
       : settled_(std::move(settled)), alone_(settled_->mission), context_(quiet(threads)) {
     const Scenario& whole = settled_->mission.scenario;
     Scenario& bare = alone_->scenario;
     bare = Scenario();
     bare.seed = whole.seed, bare.start_ns = whole.start_ns, bare.settle = whole.settle;
     bare.robots = {make_robot_item(kind)};
+    if (friction && !(*friction >= 0 && *friction <= 2))
+      throw InputError({"", 0, "friction", "out of range", "0 to 2", std::to_string(*friction), ""});
+    bare.robots[0].friction = friction;
     bare.robot_run.control_hz = kMostControlHz;  // commands count from the next step on
     if (fixed_debris) bare.robot_run.debris = DebrisMotion::fixed;
     MissionRobot robot;
     robot.model = kind_of(bare.robots[0]).make(bare.robots[0]), robot.placed_from_base = base;
-    session_ = std::make_unique<Session>(*alone_, settled_->state, std::vector<MissionRobot>{std::move(robot)}, context_);
+    SessionOptions options;
+    options.restarts = true;
+    session_ = std::make_unique<Session>(*alone_, settled_->state, std::vector<MissionRobot>{std::move(robot)}, context_,
+                                         options);
     session_->set_controller(0, [](const RobotSense&) { return RobotCommand(); });
     session_->start();
+  }
+
+  // Back to time 0, with the bits of a new session. poses: of first links, by robot; others stand where the mission, or
+  // the constructor, puts them.
+  void reset(const std::map<std::string, DoubleArray>& poses) {
+    for (std::size_t i = 0; i < robots().size(); ++i) session_->place(i, std::nullopt);
+    for (const auto& [robot, pose] : poses) session_->place(find(robot), to_pose(pose, "pose"));
+    last_.clear(), refused_.reset();
+    const auto start = [&] {
+      const py::gil_scoped_release free;
+      session_->start();
+      return true;
+    };
+    alone_ ? start() : with_lines(start);
   }
 
   void drive(const std::string& robot, double linear, double angular, const std::vector<double>& flippers) {
@@ -119,11 +141,11 @@ class MissionSession {
   }
 
  private:
-  std::unique_ptr<Session> make(bool depth) {
+  std::unique_ptr<Session> make(bool observed, bool depth) {
     if (scenario().robots.empty())
       throw InputError({"", 0, "robots", "the mission has no robots", "a mission with `robots`", "none", ""});
     SessionOptions options;
-    options.observed = true, options.depth = depth;
+    options.observed = observed, options.depth = depth, options.restarts = true;
     return std::make_unique<Session>(settled_->mission, settled_->state, make_robots(settled_->mission, context_), context_,
                                      options);
   }
@@ -165,7 +187,7 @@ class MissionSession {
     return out;
   }
   py::dict describe(const ImuSample& s) const {
-    py::dict out = named("imu", all_imus(scenario())[std::size_t(s.sensor)].name);
+    py::dict out = named("imu", scenario().imus[std::size_t(s.sensor)].name);
     out["angular_velocity"] = from_vector(s.angular_velocity);
     out["linear_acceleration"] = from_vector(s.linear_acceleration);
     return out;
@@ -182,7 +204,7 @@ class MissionSession {
     return out;
   }
   py::dict describe(Frame& s) const {
-    py::dict out = named("camera", all_cameras(scenario())[std::size_t(s.sensor)].name);
+    py::dict out = named("camera", scenario().cameras[std::size_t(s.sensor)].name);
     const Intrinsics& k = s.intrinsics;
     out["K"] = camera_matrix(k), out["pose"] = from_pose(s.world_from_camera);
     if (!s.depth.empty()) out["depth"] = take_vector(std::move(s.depth), {k.height, k.width});
@@ -202,12 +224,14 @@ class MissionSession {
 
 void add_sessions(py::module_& module) {
   py::class_<MissionSession>(module, "_Session")
-      .def(py::init([](const SharedPile& settled, bool depth, int threads) {
-             return std::make_unique<MissionSession>(settled, depth, threads);
+      .def(py::init([](const SharedPile& settled, bool observed, bool depth, int threads) {
+             return std::make_unique<MissionSession>(settled, observed, depth, threads);
            }))
-      .def(py::init([](const SharedPile& settled, const std::string& robot, const DoubleArray& pose, bool fixed_debris, int threads) {
-        return std::make_unique<MissionSession>(settled, robot, to_pose(pose, "pose"), fixed_debris, threads);
+      .def(py::init([](const SharedPile& settled, const std::string& robot, const DoubleArray& pose, bool fixed_debris,
+                       int threads, std::optional<double> friction) {
+        return std::make_unique<MissionSession>(settled, robot, to_pose(pose, "pose"), fixed_debris, threads, friction);
       }))
+      .def("reset", &MissionSession::reset)
       .def("drive", &MissionSession::drive)
       .def("grow", &MissionSession::grow)
       .def("set_joints", &MissionSession::set_joints)

@@ -1,5 +1,6 @@
 #include "app/card/slam_settings.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <vector>
@@ -32,11 +33,14 @@ struct Camera {
   bool fisheye, stereo;
   std::optional<ImuScenario> imu;  // the first on the camera's carrier
 
-  explicit Camera(const Scenario& s)
-      : scenario(s), mounted(all_cameras(s).front()), k(mounted.camera.intrinsics()),
-        fisheye(k.lens == LensModel::fisheye), stereo(mounted.camera.stereo_baseline > 0) {
-    for (const ImuScenario& unit : all_imus(s))
-      if (!imu && unit.ride == mounted.ride) imu = unit;
+  Camera(const Scenario& s, const MountedCamera& of)
+      : scenario(s), mounted(of), k(mounted.camera.intrinsics()),
+        fisheye(k.lens == LensModel::fisheye), stereo(mounted.camera.stereo_baseline > 0), imu(find_unit(s, of)) {}
+
+  static std::optional<ImuScenario> find_unit(const Scenario& s, const MountedCamera& camera) {
+    for (const ImuScenario& unit : s.imus)
+      if (unit.ride == camera.ride) return unit;
+    return std::nullopt;
   }
   // radtan has no k3; what has one is said in the card.
   std::vector<double> four() const {
@@ -44,7 +48,7 @@ struct Camera {
   }
   double baseline() const { return mounted.camera.stereo_baseline; }
   double rate() const { return mounted.rate_hz.value_or(scenario.trajectory.rate_hz); }
-  std::string topic() const { return mounted.camera.topic.value_or("/" + mounted.name); }
+  std::string topic() const { return mounted.topic(); }
 };
 
 // The rows of a 4 x 4 matrix that ends in 0 0 0 1.
@@ -52,8 +56,8 @@ using Rows = std::vector<std::vector<double>>;
 
 // Points of the inertial unit in the optical frame (Z forward, X right) of the camera, or of the right one.
 Rows optical_from_imu(const Camera& c, bool right) {
-  const Pose rig_from_camera = c.mounted.is_rig() ? Pose{} : c.mounted.rig_from_camera();
-  const Pose rig_from_imu = c.imu->is_rig() ? Pose{} : c.imu->rig_from_imu();
+  const Pose rig_from_camera = c.mounted.rig_from_camera();
+  const Pose rig_from_imu = c.imu->rig_from_imu();
   const Pose body_from_imu = rig_from_camera.inverse() * rig_from_imu;
   const Mat3 turn = body_from_imu.rotation.matrix();
   const Vec3& shift = body_from_imu.translation;
@@ -163,7 +167,7 @@ std::string kalibr_imu(const ImuScenario& imu) {
   return row("accelerometer_noise_density", m.accelerometer_noise) +
          row("accelerometer_random_walk", m.accelerometer_walk) +
          row("gyroscope_noise_density", m.gyroscope_noise) +
-         row("gyroscope_random_walk", m.gyroscope_walk) + "rostopic: " + imu.topic.value_or("/" + imu.name) + "\n" +
+         row("gyroscope_random_walk", m.gyroscope_walk) + "rostopic: " + imu.ros_topic() + "\n" +
          row("update_rate", m.rate_hz);
 }
 
@@ -200,7 +204,7 @@ std::string camera_yaml(const Camera& c) {
     return key + ":\n   rows: " + std::to_string(rows) + "\n   cols: " + std::to_string(cols) +
            "\n   data: " + list(values) + "\n";
   };
-  return "%YAML:1.0\n---\ncamera_name: camera\n" + row("image_width", c.k.width) +
+  return "%YAML:1.0\n---\ncamera_name: " + c.mounted.name + "\n" + row("image_width", c.k.width) +
          row("image_height", c.k.height) + matrix("camera_matrix", 3, 3, k) + "distortion_model: " +
          (c.fisheye ? "equidistant" : "plumb_bob") + "\n" +
          matrix("distortion_coefficients", 1, int(distortion.size()), distortion) +
@@ -218,7 +222,9 @@ std::string rtabmap(const Camera& c) {
 }  // namespace
 
 std::map<std::string, std::string> make_slam_settings(const Scenario& scenario) {
-  const Camera camera(scenario);
+  const std::vector<MountedCamera>& cameras = scenario.cameras;
+  const auto with_unit = std::find_if(cameras.begin(), cameras.end(), [&](const MountedCamera& c) { return Camera::find_unit(scenario, c); });
+  const Camera camera(scenario, with_unit == cameras.end() ? cameras.front() : *with_unit);
   std::map<std::string, std::string> files;
   files["orbslam3.yaml"] = orbslam3(camera);
   files["kalibr/camchain.yaml"] = camera_chain(camera);

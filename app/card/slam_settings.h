@@ -16,8 +16,8 @@ namespace rubble {
 //   rtabmap.ini, camera.yaml    RTAB-Map's parameters; its and ROS's calibration
 //   evo.json                    of evo_ape and evo_rpe: no alignment of scale, metres
 //
-// What needs an inertial unit is there where the mission has one. Numbers are those that the frames were
-// made with.
+// They are of the first camera with an inertial unit on its carrier; where none has one, of the first camera, without what
+// needs a unit. Numbers are those that the frames were made with.
 std::map<std::string, std::string> make_slam_settings(const Scenario& scenario);
 
 }  // namespace rubble

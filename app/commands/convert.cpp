@@ -6,6 +6,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/control/robot_control.h"
+#include "app/formats/class_labels.h"
 #include "app/formats/recording_formats.h"
 #include "app/mission/finished_run.h"
 #include "app/mission/resolved_mission.h"
@@ -57,9 +58,10 @@ PlayedSamples samples_for(const std::vector<std::string>& names, const Scenario&
 Recording recording_of(const Scenario& scenario, const FinishedRun& saved, const AssetLibrary& assets, const PileState& pile,
                        RunContext& context) {
   if (scenario.robots.empty()) return describe_recording(scenario, assets, pile);
-  const std::vector<MissionRobot> robots = make_robots({saved.manifest.provenance, scenario, scenario, assets}, context);
+  const std::vector<MissionRobot> robots = make_robots({saved.manifest.provenance, scenario, scenario.seed, assets}, context);
   Recording recording = describe_recording(scenario, assets, pile, describe_robots(scenario, robots));
-  for (const MissionRobot& robot : robots) add_links(robot.model, assets, recording.legend);
+  const std::uint16_t label = ClassLabels(scenario, assets.types).of_robots();
+  for (const MissionRobot& robot : robots) add_links(robot.model, label, recording.legend);
   return recording;
 }
 
@@ -68,7 +70,7 @@ std::vector<int> count_recorded(const FinishedRun& saved, const Recording& recor
   const FrameHashes& hashes = saved.manifest.frames;
   std::vector<int> frames;
   for (const CameraRecord& camera : recording.cameras) {
-    const std::string channel = scenario.cameras.empty() ? "rgb" : camera.name + "/rgb";
+    const std::string channel = !scenario.names_cameras() ? "rgb" : camera.name + "/rgb";
     const auto column = std::find(hashes.channels.begin(), hashes.channels.end(), channel) - hashes.channels.begin();
     frames.push_back(int(std::count_if(hashes.frames.begin(), hashes.frames.end(), [&](const auto& row) {
       return std::size_t(column) < row.size() && row[std::size_t(column)] != 0;
@@ -123,7 +125,7 @@ ExitCode convert(const FolderRequest& request, const ConvertRequest& to) {
   const PileState pile = load_pile_of(saved, assets);
   const Recording recording = recording_of(scenario, saved, assets, pile, context);
   std::vector<Intrinsics> intrinsics;
-  for (const MountedCamera& camera : all_cameras(scenario)) intrinsics.push_back(camera.camera.intrinsics());
+  for (const MountedCamera& camera : scenario.cameras) intrinsics.push_back(camera.camera.intrinsics());
   DatasetPlayer player({saved.folder, recording, intrinsics}, samples_for(to.formats, scenario, saved));
   const std::string out = output_folder_of(to.out, request.folder, "convert");
   check_apart(request.folder, out);

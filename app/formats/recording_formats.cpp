@@ -36,14 +36,14 @@ PixelRay pixel_ray(const MountedCamera& camera) {
 SimplemapOptions simplemap_options(In in) {
   SimplemapOptions options;
   options.recording = in.recording;
-  options.ray = pixel_ray(all_cameras(in.scenario)[in.camera]);
+  options.ray = pixel_ray(in.scenario.cameras[in.camera]);
   return options;
 }
 
 // In the order of the recording's cameras, which are all of the mission's.
 std::vector<PixelRay> pixel_rays(In in) {
   std::vector<PixelRay> rays;
-  for (const MountedCamera& camera : all_cameras(in.scenario)) rays.push_back(pixel_ray(camera));
+  for (const MountedCamera& camera : in.scenario.cameras) rays.push_back(pixel_ray(camera));
   return rays;
 }
 

@@ -23,7 +23,7 @@ struct RecordingInputs {
   const Recording& recording;  // with one camera only for a format that holds one camera
   std::vector<int> frames;     // number of frames of each camera; empty: unknown
   std::string title;           // of the contact sheet
-  std::size_t camera = 0;      // for a format that holds one camera: its index in all_cameras()
+  std::size_t camera = 0;      // for a format that holds one camera: its index in the scenario
 };
 
 // Samples that a format has a place for, beside frames.

@@ -25,8 +25,8 @@ struct RecorderSet {
 Recording describe_recording(const Scenario& scenario, const AssetLibrary& assets,
                              const PileState& pile, const std::vector<RobotRecord>& robots = {});
 
-// The links of a robot, whose numbers follow those of the pieces and of the robots before it.
-void add_links(const RobotModel& robot, const AssetLibrary& assets, Legend& legend);
+// The links of a robot with the class of robots, whose numbers follow those of the pieces and of the robots before it.
+void add_links(const RobotModel& robot, std::uint16_t label, Legend& legend);
 
 // What the contact sheet says at its top.
 std::string recording_title(const std::string& script, std::uint64_t seed, const PileState& pile);

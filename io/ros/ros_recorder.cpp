@@ -28,7 +28,7 @@ StreamSet floats_first(StreamSet streams) {
 // Numbers of a camera's topics.
 struct CameraTopics {
   std::uint32_t rgb_info = 0, rgb = 0, depth_info = 0, depth = 0, right_info = 0, right = 0,
-                events = 0, true_depth_info = 0, true_depth = 0;
+                events = 0, true_depth_info = 0, true_depth = 0, pose = 0;
   std::vector<std::uint32_t> truth;  // of the streams
 };
 
@@ -155,6 +155,7 @@ class RosRecorder : public Recorder {
 
   void add_ground_truth(const CameraRecord& camera, CameraTopics& topics) {
     const std::string truth = camera.truth_topic + "/";
+    if (!camera.carrier.empty()) topics.pose = file_->add(truth + "pose", ros::kPoseStamped, false);
     if (camera.channels.measured_depth) {
       topics.true_depth_info = file_->add(truth + "depth/camera_info", ros::kCameraInfo, false);
       topics.true_depth = file_->add(truth + "depth/image", ros::kImage, false);
@@ -282,6 +283,8 @@ class RosRecorder : public Recorder {
 
   void write_ground_truth(const Frame& frame, const CameraRecord& camera,
                           const CameraTopics& topics) {
+    if (!camera.carrier.empty())
+      send(topics.pose, frame, ros::pose_stamped(version_, header(frame, ros::kWorld), frame.world_from_camera));
     if (camera.channels.measured_depth) {
       send(topics.true_depth_info, frame,
            ros::camera_info(version_, header(frame, camera.optical), frame.intrinsics));

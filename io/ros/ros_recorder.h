@@ -15,6 +15,7 @@
 //   /scan                       sensor_msgs/LaserScan, of a 2-D scanner
 //   /NAME                       other sensors, in the messages of their kinds (docs/reference/sensors.md)
 //   /ground_truth/depth/image   32FC1, m: exact, where the depth above is that of a sensor
+//   /NAME/ground_truth/pose     geometry_msgs/PoseStamped of a camera on a robot: its body in `world`
 //   /ground_truth/NAME/image    streams of ground truth, by their names and in the encodings that their
 //                               types have; a piece number is 32SC1: -1: ground; -2: nothing
 //   /ground_truth/NAME/colours/image   in its place, where vectors are colours: rgb8 (io/ros/vector_colours.h)

@@ -1,7 +1,7 @@
 """Robots that are driven through a settled pile, step by step."""
 from __future__ import annotations
 
-from typing import Any, Iterable
+from typing import Any, Iterable, Mapping, Optional
 
 from numpy.typing import ArrayLike
 
@@ -10,14 +10,21 @@ from . import _core
 
 class RobotWorld:
     """A pile and one robot in it: snake, crawler, rover or vine (docs/reference/robots.md). What it touches moves, unless
-    fixed_debris. pose: of its first link. The same commands give the same bits."""
+    fixed_debris. pose: of its first link. friction: of its tracks, wheels or skin against concrete, instead of the model's;
+    0 to 2. The same commands give the same bits."""
 
     def __init__(self, pile: _core.Pile, model: str, pose: ArrayLike, fixed_debris: bool = False,
-                 threads: int = 0) -> None:
-        self._made = _core._Session(pile._shared, model, pose, fixed_debris, threads or pile.threads)
+                 threads: int = 0, friction: Optional[float] = None) -> None:
+        self._made = _core._Session(pile._shared, model, pose, fixed_debris, threads or pile.threads, friction)
         self._name = self._made.robots[0]
         self.link_names = self._made.link_names(self._name)
         self.joint_count = len(self._made.state(self._name)["joint_positions"])
+
+    def reset(self, pose: Optional[ArrayLike] = None) -> dict[str, Any]:
+        """Back to time 0, with the bits of a new RobotWorld, in milliseconds; returns state(). pose: for this time; None: that of
+        the constructor."""
+        self._made.reset({} if pose is None else {self._name: pose})
+        return self.state()
 
     def drive(self, linear: float, angular: float = 0.0, flippers: Iterable[float] = ()) -> None:
         """Of crawler and rover: forwards (m/s), counter-clockwise (rad/s), and a crawler's
@@ -45,10 +52,11 @@ class RobotWorld:
 
 class Session:
     """The robots of the pile's own mission, with its surroundings, from its time 0: what `rubble run` does, step by step.
-    Samples have the bits of the recording. depth: whether cameras on robots give exact depth, by rays."""
+    Samples have the bits of the recording. depth: whether cameras on robots give exact depth, by rays. observed: whether
+    observe() gives samples; without, steps are faster."""
 
-    def __init__(self, pile: _core.Pile, depth: bool = False, threads: int = 0) -> None:
-        self._made = _core._Session(pile._shared, depth, threads or pile.threads)
+    def __init__(self, pile: _core.Pile, depth: bool = False, threads: int = 0, observed: bool = True) -> None:
+        self._made = _core._Session(pile._shared, observed, depth, threads or pile.threads)
 
     @property
     def robots(self) -> list[str]:
@@ -59,6 +67,11 @@ class Session:
     def time(self) -> float:
         """Since the start; s."""
         return self._made.time
+
+    def reset(self, poses: Mapping[str, ArrayLike] = {}) -> None:
+        """Back to time 0, with the bits of a new session, in milliseconds. poses: of first links, by robot, for this time; other
+        robots stand where the mission puts them."""
+        self._made.reset(dict(poses))
 
     def drive(self, robot: str, linear: float, angular: float = 0.0, flippers: Iterable[float] = ()) -> None:
         """As RobotWorld.drive(), instead of what the mission says, from the robot's next control step on."""

@@ -119,7 +119,7 @@ TEST(RobotTopics, WhatALinkCarriesHangsOnThatLink) {
   recording.cameras.resize(2);
   recording.cameras[0].link = "left_link", recording.cameras[0].optical = "left_optical";
   CameraRecord& carried = recording.cameras[1];
-  carried.topic = "/eye", carried.link = "eye_link", carried.optical = "eye_optical";
+  carried.topic = "/eye", carried.truth_topic = "/eye/ground_truth", carried.link = "eye_link", carried.optical = "eye_optical";
   carried.carrier = "wheel", carried.rig_from_camera.translation = {0.1, 0, 0};
   recording.imus.resize(2);
   recording.imus[0].frame_id = "rig_link";
@@ -133,6 +133,7 @@ TEST(RobotTopics, WhatALinkCarriesHangsOnThatLink) {
     for (int camera = 1; camera >= 0; --camera) {  // the carried one first: the rig's pose comes with the other
       Frame frame = test::make_frame(i);
       frame.sensor = camera;
+      if (camera == 1) frame.world_from_camera.translation = {4, 5, 6.0 + i};
       recorder->write(frame);
     }
   }
@@ -145,6 +146,9 @@ TEST(RobotTopics, WhatALinkCarriesHangsOnThatLink) {
                         {"left_optical", "left_link"}, {"eye_link", "wheel"},     {"eye_optical", "eye_link"},
                         {"eye_imu_link", "mast"},    {"lidar_link", "base_link"}};
   EXPECT_EQ(Json::parse(read.output)["parents"], parents);
+  const Json poses = Json::parse(read.output)["poses"];
+  EXPECT_EQ(poses["/eye/ground_truth/pose"], Json({{"world", 4.0, 5.0, 6.0}, {"world", 4.0, 5.0, 7.0}}));
+  EXPECT_EQ(poses["/ground_truth/pose"].size(), 2U);
 }
 
 // Of two inertial units, that on the camera's carrier is the one of its files.

@@ -155,6 +155,29 @@ TEST(RobotRun, TheBitsDoNotDependOnThreads) {
   EXPECT_NE(run.run().hash(), hashes[0]);
 }
 
+// Another robot stood elsewhere and pushed the pile meanwhile.
+TEST(RobotRun, ARestartHasTheBitsOfANewRun) {
+  const Settled& s = brick_heap();
+  const RobotModel crawler = make_crawler(), rover = make_rover();
+  RobotRunOptions options = run_options(1.5);
+  options.restarts = true;
+  RobotRun run(s.pile, s.state, options);
+  std::uint64_t hashes[4] = {};
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) run.restart();
+    if (k == 1) run.add(rover, {{}, {-1.7, 0.4, 0.002}}, [&](const RobotSense&) { return drive_sides(rover, 0.6, 0.1); });
+    run.add(crawler, {{}, {k == 1 ? 2.5 : -1.6, 0.2, 0.002}}, push(crawler, 0.4));
+    hashes[k] = run.run().hash();
+  }
+  RobotRun fresh(s.pile, s.state, run_options(1.5));
+  fresh.add(crawler, {{}, {-1.6, 0.2, 0.002}}, push(crawler, 0.4));
+  hashes[3] = fresh.run().hash();
+  EXPECT_EQ(hashes[0], hashes[3]);
+  EXPECT_EQ(hashes[2], hashes[3]);
+  EXPECT_NE(hashes[1], hashes[3]);
+  EXPECT_THROW(fresh.restart(), RunError);
+}
+
 TEST(RobotRun, ARobotInsideAPieceIsNamed) {
   Pile pile;
   pile.types = {testing::box_type("slab", 2, 2, 0.2)};

@@ -31,8 +31,8 @@ Files make_run_files(const PackRequest& request) {
     const Scenario scenario = stated_scenario(saved.manifest.provenance);
     for (const auto& settings : {make_slam_settings(scenario), make_viewer_settings(scenario)})
       for (const auto& [name, text] : settings) files["settings/" + name] = text;
-    if (!all_imus(scenario).empty() && files.count("settings/kalibr/imu.yaml") == 0)
-      print_err("warning: no inertial unit rides with the first camera, so the settings of SLAM programs describe none\n");
+    if (!scenario.imus.empty() && files.count("settings/kalibr/imu.yaml") == 0)
+      print_err("warning: no inertial unit rides with any camera, so the settings of SLAM programs describe none\n");
   }
   if (request.card) files["README.md"] = make_dataset_card(saved, request.text);
   files["SHA256SUMS"] = make_checksums(saved, files);

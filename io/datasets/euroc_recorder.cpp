@@ -78,7 +78,10 @@ class EurocRecorder : public Recorder {
         cameras_(number_cameras(recording)),
         seen_(recording.cameras.size()),
         order_(path, channels_of(recording)),
-        folder_(path, folders(), threads) {}
+        folder_(path, folders(), threads),
+        imus_(recording.imus.size(),
+              "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
+              "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n") {}
 
   void write(const Frame& frame) override {
     order_.check(frame);
@@ -96,15 +99,15 @@ class EurocRecorder : public Recorder {
 
   void write_imu(const ImuSample& s) override {
     const Vec3 &w = s.angular_velocity, &a = s.linear_acceleration;
-    imu_ += row(s.stamp_ns, {w.x, w.y, w.z, a.x, a.y, a.z});
-    last_imu_ = s;
+    imus_.at(std::size_t(s.sensor)) += row(s.stamp_ns, {w.x, w.y, w.z, a.x, a.y, a.z});
+    if (s.sensor == 0) last_imu_ = s;
   }
 
   void finish() override {
     for (const EurocCamera& camera : cameras_) write_camera(camera);
-    if (has_imu()) {
-      folder_.write("mav0/imu0/data.csv", imu_);
-      folder_.write("mav0/imu0/sensor.yaml", imu_yaml(recording_.imus.front()));
+    for (std::size_t i = 0; i < imus_.size(); ++i) {
+      folder_.write(folder_of_imu(i) + "/data.csv", imus_[i]);
+      folder_.write(folder_of_imu(i) + "/sensor.yaml", imu_yaml(recording_.imus[i]));
     }
     folder_.write("mav0/state_groundtruth_estimate0/data.csv", states_);
     folder_.write("mav0/state_groundtruth_estimate0/sensor.yaml",
@@ -120,12 +123,12 @@ class EurocRecorder : public Recorder {
     std::string pictures = "#timestamp [ns],filename\n";
   };
 
-  bool has_imu() const { return !recording_.imus.empty(); }
+  static std::string folder_of_imu(std::size_t number) { return "mav0/imu" + std::to_string(number); }
 
   std::vector<std::string> folders() const {
     std::vector<std::string> names{"mav0/state_groundtruth_estimate0"};
     for (const EurocCamera& camera : cameras_) names.push_back("mav0/" + camera.name + "/data");
-    if (has_imu()) names.push_back("mav0/imu0");
+    for (std::size_t i = 0; i < recording_.imus.size(); ++i) names.push_back(folder_of_imu(i));
     return names;
   }
 
@@ -173,11 +176,9 @@ class EurocRecorder : public Recorder {
   FrameOrder order_;
   FolderWriter folder_;
   std::int64_t last_state_ns_ = -1;
-  ImuSample last_imu_;
+  ImuSample last_imu_;  // of the first unit
   // The tables, so far.
-  std::string imu_ =
-      "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
-      "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n";
+  std::vector<std::string> imus_;  // by unit
   std::string states_ =
       "#timestamp,p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z [],"
       "v_RS_R_x [m s^-1],v_RS_R_y [m s^-1],v_RS_R_z [m s^-1],b_w_RS_S_x [rad s^-1],"

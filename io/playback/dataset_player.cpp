@@ -9,6 +9,7 @@
 #include "io/playback/recorded_picture.h"
 #include "io/playback/recorded_tables.h"
 #include "io/playback/ros_samples.h"
+#include "io/recording/one_camera.h"
 #include "kernel/base/error.h"
 #include "render/streams/image_streams.h"
 
@@ -35,8 +36,6 @@ struct BesideSample {
   std::function<Sample()> read;
 };
 
-int rank_of_sensor(std::size_t number) { return int(number) + 1; }
-
 // The folder of one camera, with its tables.
 struct FramesFolder {
   std::string path;           // that has `frames`
@@ -62,6 +61,9 @@ struct DatasetPlayer::State {
   }
 
   void find_frames();
+  std::string table_of_imu(std::size_t imu) const;  // empty: it has none
+  bool is_beside_a_camera(std::size_t imu) const;
+  int rank_of_sensor(std::size_t number) const { return int(dataset.recording.imus.size() + number); }
   void add_imus(const PlayedSamples& wanted);
   void add_scans();
   void add_readings();
@@ -98,22 +100,44 @@ void DatasetPlayer::State::find_frames() {
   fail_missing(dataset.folder + "/mission.bag", "pictures", "bag = true, outputs.mcap = true or outputs.frames");
 }
 
+// The folder `frames` of a camera has the first unit that its carrier has, with biases.
+std::string DatasetPlayer::State::table_of_imu(std::size_t imu) const {
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    const std::string path = folders[i].path + "/frames/imu.csv";
+    const int unit = find_imu_beside(dataset.recording, i);
+    if ((several() ? unit : std::max(0, unit)) == int(imu) && has_file(path)) return path;
+  }
+  return "";
+}
+
 void DatasetPlayer::State::add_imus(const PlayedSamples& wanted) {
-  const Recording& recording = dataset.recording;
-  if (recording.imus.empty()) return;
+  const std::vector<ImuRecord>& imus = dataset.recording.imus;
   std::vector<ImuSample> samples;
-  const bool in_table = !folders.empty() && recording.imus.size() == 1 && has_file(folders.front().path + "/frames/imu.csv");
-  if (in_table) {
-    samples = read_imu_table(folders.front().path + "/frames/imu.csv", 0);
-  } else {
-    if (wanted.biases) fail_missing(dataset.folder + "/frames/imu.csv", "biases of the inertial unit", "frames");
+  std::vector<bool> in_table;
+  for (std::size_t i = 0; i < imus.size(); ++i) {
+    const std::string path = table_of_imu(i);
+    in_table.push_back(!path.empty());
+    // Of further units no format holds the biases, unless a camera is beside them.
+    if (path.empty() && wanted.biases && (i == 0 || is_beside_a_camera(i)))
+      fail_missing(folder_of(0) + "/frames/imu.csv", "biases of " + imus[i].name, "frames");
+    if (path.empty()) continue;
+    for (const ImuSample& sample : read_imu_table(path, int(i))) samples.push_back(sample);
+  }
+  if (std::count(in_table.begin(), in_table.end(), false) > 0) {
     std::string path = ros;
     for (const char* name : {"/mission.mcap", "/mission.bag"})
       if (path.empty() && has_file(dataset.folder + name)) path = dataset.folder + name;
     if (path.empty()) fail_missing(dataset.folder + "/mission.bag", "inertial readings", "bag");
-    samples = read_ros_imus(path, recording);
+    for (const ImuSample& sample : read_ros_imus(path, dataset.recording))
+      if (!in_table[std::size_t(sample.sensor)]) samples.push_back(sample);
   }
-  for (const ImuSample& sample : samples) beside.push_back({sample.stamp_ns, 0, [sample] { return Sample(sample); }});
+  for (const ImuSample& sample : samples) beside.push_back({sample.stamp_ns, sample.sensor, [sample] { return Sample(sample); }});
+}
+
+bool DatasetPlayer::State::is_beside_a_camera(std::size_t imu) const {
+  for (std::size_t i = 0; i < dataset.recording.cameras.size(); ++i)
+    if (find_imu_beside(dataset.recording, i) == int(imu)) return true;
+  return false;
 }
 
 void DatasetPlayer::State::add_scans() {

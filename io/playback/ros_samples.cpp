@@ -9,6 +9,7 @@
 #include "io/playback/ros_pictures.h"
 #include "io/playback/wire_reader.h"
 #include "kernel/base/error.h"
+#include "render/streams/image_streams.h"
 
 namespace rubble {
 namespace {

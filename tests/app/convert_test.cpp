@@ -122,6 +122,31 @@ TEST(Convert, RefusesWhatCannotBe) {
   EXPECT_IN("velocities are the differences", rounded.err);
 }
 
+// Two cameras of different rates, two inertial units, scans of three patterns, and the pile while it settles.
+TEST(Convert, KeepsManySensorsInTheirOrder) {
+  const ScratchFolder scratch;
+  write_file(scratch / "many.lua", R"(return rubble.mission {
+    seed = 3,
+    pile = { layers = 1, pieces_per_layer = 4, mix = { { asset = "brick" } }, spawn_position = { 0, 0, 1 }, spawn_bounds = { 1, 1, 0.5 } },
+    cameras = { a = { width = 48, height = 32, stereo_baseline = 0.1, channels = { "normals", "instance" } },
+                b = { width = 40, height = 30, position = { 0.1, 0.1, 0 }, rate_hz = 5, event_camera = { on = true } } },
+    imus = { one = {}, two = { rate_hz = 50 } },
+    lidars = { top = { model = "os0", channels = 32, columns = 512 }, front = { model = "utm30lx" }, mid = { model = "mid360" } },
+    barometers = { height = {} },
+    record_settling = { on = true, to = 0.2, rate_hz = 10 },
+    trajectory = { rate_hz = 10, waypoints = {
+      { t = 0, position = { -1.5, 0, 0.8 }, look_at = { 0, 0, 0.1 } }, { t = 0.2, position = { -1.4, 0.1, 0.8 }, look_at = { 0, 0, 0.1 } } } },
+    outputs = { mcap = true, tum = true, euroc = true, colmap = true, frames = true, pcd = true, nerfstudio = true, depth = "32FC1" },
+  })");
+  const Outcome run = run_rubble("run " + (scratch / "many.lua") + " --out " + (scratch / "many") + " --quiet");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Outcome done = run_rubble("convert " + (scratch / "many") + " --to rawlog,bag,mcap,tum,euroc,colmap,frames,pcd,nerfstudio,sensors --quiet");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  for (const char* name : {"mission.rawlog", "mission.bag", "mission.mcap", "euroc", "colmap", "nerfstudio", "sensors", "cameras/a/frames",
+                           "cameras/b/frames", "cameras/b/tum", "pcd/mid/000000.pcd", "pcd/front/stamps.txt"})
+    expect_same(scratch / ("many/" + std::string(name)), scratch / ("many/convert/" + std::string(name)));
+}
+
 // Links of robots and fines have numbers as pieces have.
 TEST(Convert, KnowsWhatTheNumbersOfTheRecordingMean) {
   const ScratchFolder scratch;

@@ -2,6 +2,7 @@
 // tests/datasets reads them by the programs of others.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -9,6 +10,8 @@
 #include "io/base/little_endian.h"
 #include "io/datasets/colmap_recorder.h"
 #include "io/datasets/dataset_recorders.h"
+#include "io/datasets/euroc_recorder.h"
+#include "io/datasets/frames_recorder.h"
 #include "io/image/image_file.h"
 #include "io/learning/lerobot_recorder.h"
 #include "io/learning/parquet_file.h"
@@ -139,6 +142,33 @@ TEST(KittiOdometry, LeavesOutLastPicturesWithoutAScanAndRefusesAGap) {
   write_scanned(*gap, 0);
   write_scanned(*gap, 1, false);
   EXPECT_THROW(write_scanned(*gap, 2), RunError);
+}
+
+// --- Several inertial units ---
+
+TEST(Euroc, EachInertialUnitHasItsOwnTable) {
+  ScratchFolder folder;
+  Recording recording = test::full_recording();
+  recording.imus.push_back(recording.imus.front());
+  const auto euroc = make_euroc_recorder(folder / "euroc", recording, 1);
+  const auto frames = make_frames_recorder(folder / "frames", recording, 1);
+  for (Recorder* recorder : {euroc.get(), frames.get()}) {
+    for (int unit = 0; unit < 2; ++unit)
+      for (int i = 0; i < 3 - unit; ++i) {
+        ImuSample sample;
+        sample.sensor = unit, sample.stamp_ns = 1'000'000'000 + i, sample.angular_velocity.x = 10 * unit + i;
+        recorder->write_imu(sample);
+      }
+    recorder->write(make_full_frame(0));
+    recorder->finish();
+  }
+  const auto second = read_text(folder / "euroc/mav0/imu1/data.csv");
+  EXPECT_EQ(second.substr(second.find('\n') + 1), "1000000000,10,0,0,0,0,0\n1000000001,11,0,0,0,0,0\n");
+  const auto first = read_text(folder / "euroc/mav0/imu0/data.csv");
+  EXPECT_EQ(first.substr(first.find('\n') + 1, 24), "1000000000,0,0,0,0,0,0\n1");
+  EXPECT_EQ(std::count(first.begin(), first.end(), '\n'), 4);
+  const auto table = read_text(folder / "frames/imu.csv");  // of the unit beside the camera
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4);
 }
 
 // --- nerfstudio ---

@@ -6,7 +6,6 @@
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/control/robot_control.h"
-#include "app/formats/class_labels.h"
 #include "app/formats/recording_formats.h"
 #include "app/mission/finished_run.h"
 #include "app/mission/resolved_mission.h"
@@ -59,10 +58,7 @@ Recording recording_of(const Scenario& scenario, const FinishedRun& saved, const
                        RunContext& context) {
   if (scenario.robots.empty()) return describe_recording(scenario, assets, pile);
   const std::vector<MissionRobot> robots = make_robots({saved.manifest.provenance, scenario, scenario.seed, assets}, context);
-  Recording recording = describe_recording(scenario, assets, pile, describe_robots(scenario, robots));
-  const std::uint16_t label = ClassLabels(scenario, assets.types).of_robots();
-  for (const MissionRobot& robot : robots) add_links(robot.model, label, recording.legend);
-  return recording;
+  return describe_recording(scenario, assets, pile, describe_robots(scenario, robots));
 }
 
 // Frames of each camera, by the hashes of the manifest.

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "app/control/robot_senses.h"
-#include "app/formats/class_labels.h"
 #include "app/measures/frame_watch.h"
 #include "app/pipeline/legs.h"
 #include "app/pipeline/live.h"
@@ -213,11 +212,6 @@ void finish_recording(const ResolvedMission& mission, const Legend& legend, cons
   context.progress.finish(std::to_string(set.names.size()) + " files");
 }
 
-void add_robots(const DrivenRobots& robots, std::uint16_t label, Recording& recording) {
-  recording.mount = robots.mount;
-  for (const RobotModel& model : robots.moved.models) add_links(model, label, recording.legend);
-}
-
 // Frames into files, until the last file is complete.
 void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const Seen& seen,
             GlContext& gl, RunFolder& folder, RunContext& context, RecordedFrames& recorded) {
@@ -225,7 +219,7 @@ void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const 
   Taking taking;
   PreparedLeg prepared = prepare_leg(legs.front(), mission, seen, {}, gl, folder, context, taking);
   Recording recording = describe_recording(mission.scenario, mission.assets, pile, seen.robots.records);
-  add_robots(seen.robots, ClassLabels(mission.scenario, mission.assets.types).of_robots(), recording);
+  recording.mount = seen.robots.mount;
   RecorderSet set = make_recorders({mission.scenario, recording, count_frames(legs, legs.size()),
                                     recording_title(mission.provenance.script.path, mission.scenario.seed, pile)}, folder.path());
   folder.expect(set.names);

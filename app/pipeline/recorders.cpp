@@ -108,14 +108,12 @@ Recording describe_recording(const Scenario& scenario, const AssetLibrary& asset
     recording.legend.pieces.push_back(
         {labels.of_type(piece.type), assets.types[type].name});
   }
+  for (const RobotRecord& robot : robots)
+    for (const std::string& link : robot.instances) recording.legend.pieces.push_back({labels.of_robots(), link});
   for (const Victim& victim : find_victims(pile)) recording.legend.pieces.at(std::size_t(victim.piece)).victim = true;
   add_fines(labels, pile, recording.legend);
   add_surroundings(labels, pile, recording.legend);
   return recording;
-}
-
-void add_links(const RobotModel& robot, std::uint16_t label, Legend& legend) {
-  for (const RobotLink& link : robot.links) legend.pieces.push_back({label, robot.name + "/" + link.name});
 }
 
 std::string recording_title(const std::string& script, std::uint64_t seed, const PileState& pile) {

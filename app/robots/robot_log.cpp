@@ -89,7 +89,10 @@ RobotRecord describe_robot(const MissionRobot& robot, const std::string& name, c
   record.name = name;
   if (several) record.topic = "/" + name;
   if (prefixed) record.frame = name + "/";
-  for (const RobotLink& link : model.links) record.links.push_back(link.name);
+  for (const RobotLink& link : model.links) {
+    record.links.push_back(link.name);
+    record.instances.push_back(model.name + "/" + link.name);
+  }
   const std::vector<Pose> links = calc_base_from_links(model);
   for (const RobotJoint& joint : model.joints) {
     record.joints.push_back({joint.name, joint.parent, joint.child, joint.kind == JointKind::weld});

@@ -111,6 +111,7 @@ struct RobotRecord {
   Pose world_from_base;                 // of its first link at the start: the origin of odometry
   bool has_odometry = false;
   std::string description;  // URDF
+  std::vector<std::string> instances;  // names in a legend, of its links alone: their numbers follow those of the pieces
 
   std::string frame_of(int link) const { return frame_named(links[std::size_t(link)]); }
   // TF: frame of the link of this name. tf2 refuses leading slashes.

@@ -8,6 +8,7 @@
 
 #include "app/formats/class_labels.h"
 #include "app/formats/recording_formats.h"
+#include "app/pipeline/recorders.h"
 #include "app/provenance/earlier_files.h"
 #include "io/scenes/pile_export.h"
 #include "scripting/scenario/scenario_schema.h"
@@ -75,6 +76,23 @@ TEST(ClassLabels, AreIndicesOfTheLegend) {
     for (std::size_t k = 0; k < surrounding_names().size() && (what & 4); ++k)
       EXPECT_EQ(names.at(labels.of(SurroundingKind(k))), surrounding_names()[k]);
   }
+}
+
+// The number of a link follows those of the pieces; frames without a body have none.
+TEST(ClassLabels, LegendsNameTheLinksOfRobots) {
+  Scenario s;
+  s.robots.resize(1);
+  AssetLibrary assets;
+  assets.types = {PieceType{"brick", {}, {}, {}}};
+  PileState pile;
+  pile.types = {"brick"}, pile.pieces.resize(2);
+  RobotRecord robot;
+  robot.links = {"base_link", "lidar_frame"}, robot.instances = {"rover/base_link"};
+  const Legend legend = describe_recording(s, assets, pile, {robot}).legend;
+  ASSERT_EQ(legend.pieces.size(), 3u);
+  EXPECT_EQ(legend.pieces[1].asset, "brick");
+  EXPECT_EQ(legend.pieces[2].asset, "rover/base_link");
+  EXPECT_EQ(legend.labels.at(legend.pieces[2].label), "robot");
 }
 
 }  // namespace formats_test

@@ -210,7 +210,7 @@ py::tuple mesh_of(const Pile& pile) {
   const PileState& state = pile.settled->state;
   for (const PieceState& piece : state.pieces)
     if (piece.status != PieceStatus::lost) add(*meshes[std::size_t(piece.type)], piece.world_from_body, piece.scale);
-  for (const FineHeap& heap : make_fine_heaps(state.fines)) add(heap.mesh, world_from_host(state, heap.host), 1);
+  for (const FineHeap& heap : state.fines.heaps()) add(heap.mesh, world_from_host(state, heap.host), 1);
   const auto vertices = py::ssize_t(positions.size() / 3), faces = py::ssize_t(triangles.size() / 3);
   return py::make_tuple(take_vector(std::move(positions), {vertices, 3}), take_vector(std::move(triangles), {faces, 3}));
 }

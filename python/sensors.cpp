@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "app/pipeline/stages.h"
 #include "app/scene/build_scene.h"
+#include "app/sensors/camera_renderers.h"
 #include "kernel/base/parallel.h"
 #include "python/arrays.h"
 #include "python/parts.h"
@@ -47,7 +47,7 @@ class FrameRenderer {
   FrameRenderer(SharedPile settled, int threads)
       : settled_(std::move(settled)),
         gl_({-1, threads}),
-        renderer_(prepare_renderer(scene_of(*settled_), settled_->mission.scenario, gl_, threads, {})) {}
+        renderer_(prepare_renderer(scene_of(*settled_), settled_->mission.scenario.cameras.front().camera.colour, gl_, {threads, {}, {}})) {}
 
   py::dict render(const DoubleArray& world_from_camera, int width, int height, double fov_deg, int number,
                   const std::array<double, 2>& shift) {

@@ -187,7 +187,7 @@ class MissionSession {
     return out;
   }
   py::dict describe(const ImuSample& s) const {
-    py::dict out = named("imu", all_imus(scenario())[std::size_t(s.sensor)].name);
+    py::dict out = named("imu", scenario().imus[std::size_t(s.sensor)].name);
     out["angular_velocity"] = from_vector(s.angular_velocity);
     out["linear_acceleration"] = from_vector(s.linear_acceleration);
     return out;
@@ -204,7 +204,7 @@ class MissionSession {
     return out;
   }
   py::dict describe(Frame& s) const {
-    py::dict out = named("camera", all_cameras(scenario())[std::size_t(s.sensor)].name);
+    py::dict out = named("camera", scenario().cameras[std::size_t(s.sensor)].name);
     const Intrinsics& k = s.intrinsics;
     out["K"] = camera_matrix(k), out["pose"] = from_pose(s.world_from_camera);
     if (!s.depth.empty()) out["depth"] = take_vector(std::move(s.depth), {k.height, k.width});

@@ -13,7 +13,8 @@ until [ -s "$d/display" ]; do sleep 0.1; done
 export DISPLAY=:$(cat "$d/display")
 unset SDL_VIDEODRIVER
 
-"$program" inspect scripts/first_pile.lua --size 640x400 --quiet --out "$d/out" > /dev/null 2> "$d/log" & inspect=$!
+touch "$d/log"
+"$program" inspect scripts/first_pile.lua --set pile.layers=1 --size 640x400 --quiet --out "$d/out" > /dev/null 2> "$d/log" & inspect=$!
 until grep -q 'inspect: ready' "$d/log"; do
   kill -0 $inspect || { cat "$d/log"; exit 1; }
   sleep 0.1
@@ -26,8 +27,8 @@ shot() {
   until [ -s "$d/out/picture_00$shots.png" ]; do kill -0 $inspect; sleep 0.1; done
   sleep 3.5  # the name of the picture is shown
 }
-sleep 1.5; xdotool key space v; sleep 1; shot           # hulls of what falls
-xdotool key v space; sleep 45; xdotool key space c; sleep 3; shot  # contact forces at rest
+xdotool keydown s; sleep 1; xdotool keyup s; sleep 2; xdotool key space v; sleep 1; shot  # hulls of what falls
+xdotool key v space; sleep 60; xdotool key c; sleep 3; shot   # contact forces at rest
 xdotool key c o; sleep 3; shot                          # views of cameras
 xdotool key o m; sleep 45; shot                         # voids
 xdotool key Escape

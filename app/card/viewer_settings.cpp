@@ -28,8 +28,8 @@ std::vector<Display> list_pictures(const Scenario& scenario) {
   const OutputScenario& out = scenario.outputs;
   const std::string colour = out.pictures == PictureEncoding::raw ? "raw" : "compressed";
   std::vector<Display> displays;
-  for (const MountedCamera& mounted : all_cameras(scenario)) {
-    const std::string topic = mounted.camera.topic.value_or("/" + mounted.name);
+  for (const MountedCamera& mounted : scenario.cameras) {
+    const std::string topic = mounted.topic();
     displays.push_back({"Image", mounted.name, topic + "/rgb/image_raw", colour});
     if (mounted.camera.stereo_baseline > 0)
       displays.push_back({"Image", mounted.name + ", right", topic + "/right/image_raw", colour});
@@ -41,8 +41,8 @@ std::vector<Display> list_depths(const Scenario& scenario) {
   const OutputScenario& out = scenario.outputs;
   const bool packed = out.pictures != PictureEncoding::raw && out.depth == DepthEncoding::millimetres;
   std::vector<Display> displays;
-  for (const MountedCamera& mounted : all_cameras(scenario)) {
-    const std::string topic = mounted.camera.topic.value_or("/" + mounted.name) + "/depth_registered/";
+  for (const MountedCamera& mounted : scenario.cameras) {
+    const std::string topic = mounted.topic() + "/depth_registered/";
     displays.push_back({"DepthCloud", mounted.name + ", depth",
                         topic + (out.depth == DepthEncoding::millimetres ? "image_raw" : "image"),
                         packed ? "compressedDepth" : "raw"});
@@ -113,13 +113,13 @@ std::string make_foxglove(const Scenario& scenario, const std::vector<Display>& 
     column.push_back("Image!picture" + std::to_string(i));
     panels[column.back()] = {{"imageMode", {{"imageTopic", shown[i].full_topic()}}}};
   }
-  if (scenario.imu.on) {
-    column.push_back("Plot!imu");
+  for (const ImuScenario& imu : scenario.imus) {
+    column.push_back("Plot!" + imu.name);
     json paths = json::array();
     for (const char* axis : {"x", "y", "z"})
-      paths.push_back({{"value", scenario.imu.topic.value_or("/imu") + ".linear_acceleration." + axis},
+      paths.push_back({{"value", imu.ros_topic() + ".linear_acceleration." + axis},
                        {"enabled", true}, {"timestampMethod", "receiveTime"}});
-    panels["Plot!imu"] = {{"paths", paths}};
+    panels[column.back()] = {{"paths", paths}};
   }
   const json file{{"configById", panels}, {"globalVariables", json::object()}, {"userNodes", json::object()},
                   {"playbackConfig", {{"speed", 1}}},

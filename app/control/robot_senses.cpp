@@ -21,9 +21,10 @@ bool is_sensed(const Scenario& scenario, const std::string& name) {
                      [&](const RobotItem& robot) { return senses(robot, name); });
 }
 
-RobotSenses::RobotSenses(const Scenario& scenario) : scenario_(scenario), untold_(scenario.robots.size()) {
-  for (const MountedCamera& camera : all_cameras(scenario)) camera_names_.push_back(camera.name);
-  for (const ImuScenario& imu : all_imus(scenario)) imu_names_.push_back(imu.name);
+RobotSenses::RobotSenses(const Scenario& scenario, std::int64_t start_ns)
+    : scenario_(scenario), start_ns_(start_ns), untold_(scenario.robots.size()) {
+  for (const MountedCamera& camera : scenario.cameras) camera_names_.push_back(camera.name);
+  for (const ImuScenario& imu : scenario.imus) imu_names_.push_back(imu.name);
 }
 
 RobotSenses::Sensed RobotSenses::sensed() const {
@@ -56,7 +57,6 @@ void RobotSenses::hear(const Sample& sample) {
 }
 
 void RobotSenses::tell(std::size_t robot, Value& told) {
-  const std::int64_t start = scenario_.start_ns;
   std::map<std::string, Value> scanners;  // by kind: a table of its sensors
   for (const SensorKind* kind : sensor_kinds())
     if (kind->most_points() > 0) scanners.emplace(kind->key(), Value::make_table());
@@ -68,10 +68,10 @@ void RobotSenses::tell(std::size_t robot, Value& told) {
   // Of several scans and pictures since the last call, the newest; of readings, all.
   for (const auto& sample : std::exchange(untold_[robot], {})) {
     if (const auto* reading = std::get_if<ImuSample>(&*sample)) {
-      add(imus, imu_names_[std::size_t(reading->sensor)], describe_reading(*reading, start));
+      add(imus, imu_names_[std::size_t(reading->sensor)], describe_reading(*reading, start_ns_));
     } else if (const auto* values = std::get_if<Reading>(&*sample)) {
       const SensorItem& sensor = scenario_.sensors[std::size_t(values->sensor)];
-      Value described = describe_values(*values, sensor, start);
+      Value described = describe_values(*values, sensor, start_ns_);
       if (values->scan)
         scanners.at(sensor.figures->key()).set(sensor.name, std::move(described));
       else
@@ -80,9 +80,9 @@ void RobotSenses::tell(std::size_t robot, Value& told) {
       const Frame& frame = std::get<Frame>(*sample);
       const std::string& camera = camera_names_[std::size_t(frame.sensor)];
       if (frame.rgb.empty())
-        cameras.set(camera, describe_depth(frame, start));
+        cameras.set(camera, describe_depth(frame, start_ns_));
       else
-        images.set(camera, describe_colours(frame, start));
+        images.set(camera, describe_colours(frame, start_ns_));
     }
   }
   for (auto& [kind, table] : scanners) told.set(kind, std::move(table));

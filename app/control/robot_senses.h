@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,8 +18,8 @@ bool is_sensed(const Scenario& scenario, const std::string& name);
 
 class RobotSenses {
  public:
-  // scenario: must outlive this.
-  explicit RobotSenses(const Scenario& scenario);
+  // scenario: must outlive this. start_ns: the stamp of the robots' time 0.
+  RobotSenses(const Scenario& scenario, std::int64_t start_ns);
 
   // Numbers of the sensors that `senses` of any robot names.
   struct Sensed {
@@ -36,6 +37,7 @@ class RobotSenses {
   std::string sense_of(const Sample& sample) const;
 
   const Scenario& scenario_;
+  std::int64_t start_ns_;
   std::vector<std::string> camera_names_, imu_names_;
   std::vector<std::vector<std::shared_ptr<const Sample>>> untold_;  // by robot
 };

@@ -53,10 +53,10 @@ DriveLeg::DriveLeg(DriveWorld& world, const std::string& folder, int number, boo
       name_(number_name(number)),
       log_(world.scenario, world.steps_per_frame),
       camera_(*world.renderer,
-              build_camera(world.scenario, all_cameras(world.scenario).front(), world.threads),
+              build_camera(world.scenario.cameras.front(), world.scenario.seed, world.threads),
               Flight{}),
       between_(*world.renderer,
-               build_camera(world.scenario, all_cameras(world.scenario).front(), world.threads),
+               build_camera(world.scenario.cameras.front(), world.scenario.seed, world.threads),
                Flight{}),
       listener_(std::move(listener)) {
   if (record) queue_ = start_recording(world, folder_ + "/" + name_);

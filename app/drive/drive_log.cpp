@@ -14,7 +14,8 @@ std::vector<std::string> adapt_to_driving(Scenario& scenario) {
     if (on) off.push_back(what);
     return on;
   };
-  CameraScenario& camera = scenario.camera;
+  MountedCamera& mounted = scenario.cameras.front();
+  CameraScenario& camera = mounted.camera;
   if (turn_off(camera.shutter.readout > 0, "rolling shutter")) camera.shutter.readout = 0;
   if (turn_off(camera.shutter.motion_blur, "motion blur")) camera.shutter.motion_blur = false;
   std::vector<std::string>& channels = camera.channels;
@@ -22,10 +23,10 @@ std::vector<std::string> adapt_to_driving(Scenario& scenario) {
     const auto at = std::find(channels.begin(), channels.end(), stream->name);
     if (turn_off(at != channels.end() && stream->needs_next, stream->name)) channels.erase(at);
   }
-  if (turn_off(scenario.event_camera.on, "event camera")) scenario.event_camera.on = false;
+  if (turn_off(mounted.event_camera.on, "event camera")) mounted.event_camera.on = false;
   // Robots carry theirs, along a way that a run goes again.
   if (scenario.robots.empty()) {
-    if (turn_off(!all_imus(scenario).empty(), "inertial units")) scenario.imu.on = false, scenario.imus.clear();
+    if (turn_off(!scenario.imus.empty(), "inertial units")) scenario.imus.clear();
     if (turn_off(!scenario.sensors.empty(), "other sensors")) scenario.sensors.clear();
   }
   scenario.outputs.pcd = scenario.outputs.kitti = false;

@@ -8,6 +8,7 @@
 #include "app/drive/whole_paths.h"
 #include "app/planning/flight.h"
 #include "app/scene/build_scene.h"
+#include "app/sensors/camera_renderers.h"
 #include "app/support/print.h"
 #include "scripting/sandbox/script_file.h"
 
@@ -64,7 +65,7 @@ DriveLimits limits_of(const TrajectorySpec& spec) {
 }
 
 void refuse_several_cameras(const ResolvedMission& mission) {
-  if (mission.scenario.cameras.empty()) return;
+  if (!mission.scenario.names_cameras()) return;
   const SourceFile& script = mission.provenance.script;
   std::vector<Diagnostic> mistakes{{"", 0, "cameras", "several cameras cannot be driven",
                                     "a mission with `camera`", "`cameras`",
@@ -80,13 +81,17 @@ void enter_robots(const DriveRequest& request, const ResolvedMission& mission, R
                       "run the mission of the drive with `rubble run`; it records everything"});
   world.robots = with_lines_of_script(
       mission, [&] { return std::make_unique<RobotDrive>(mission, world.pile, request.robot, run); });
+  // The camera of the drive, and of the mission that is saved, is on the robot.
+  if (world.scenario.record_settling.on)
+    print_err("drive: without record_settling: the camera is on the robot, which starts when the pile rests\n");
+  world.scenario.record_settling = {};
   world.plan = Plan::ghost;
   world.entry = make_driven_pose(world.robots->world_from_rig());
 }
 
 void adapt(DriveWorld& world, const DriveRequest& request) {
   Scenario& scenario = world.scenario;
-  resize_camera(scenario.camera, request.width, request.height);
+  resize_camera(scenario.cameras.front().camera, request.width, request.height);
   // The mission that is saved lies elsewhere.
   scenario = with_whole_paths(scenario, world.assets, !request.of.asset_packs.empty());
   const double rate = scenario.trajectory.rate_hz;
@@ -127,13 +132,16 @@ std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
   run.progress.start("scene");
   // By hand there is no time for the reference; the saved mission keeps what was asked for.
   Scenario drawn = world->scenario;
-  drawn.camera.colour = ColourSpec();
+  drawn.cameras.front().camera.colour = ColourSpec();
   const Scene scene = world->robots ? world->robots->build_scene(drawn)
                                     : build_scene(drawn, world->assets, world->pile);
-  world->renderer = prepare_renderer(scene, drawn, context, world->threads, [&](double fraction) {
-    run.progress.update(fraction, "light");
-    go_on();
-  });
+  world->renderer = prepare_renderer(scene, drawn.cameras.front().camera.colour, context,
+                                     {world->threads,
+                                      [&](double fraction) {
+                                        run.progress.update(fraction, "light");
+                                        go_on();
+                                      },
+                                      {}});
   run.progress.finish("ready on " + context.info().renderer);
   return world;
 }

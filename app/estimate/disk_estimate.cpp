@@ -9,6 +9,7 @@
 
 #include "app/formats/recording_formats.h"
 #include "io/scenes/pile_export.h"
+#include "kernel/structure/building.h"
 
 namespace rubble {
 namespace {
@@ -84,8 +85,7 @@ void add_surroundings(const SurroundingsSpec& s, PileModelSize& size) {
 
 // The building's pieces, and what furnishes it: in each bay of each floor, or on each floor of a plan.
 void add_building(const PileScenario& pile, const AssetLibrary& assets, PileCount& size) {
-  for (std::size_t i = 0; i < assets.building_counts.size(); ++i)
-    add(assets, assets.building_first_type + int(i), assets.building_counts[i], size);
+  for (const StructurePiece& piece : assets.structures->damaged.pieces) add(assets, assets.building_first_type + piece.type, 1, size);
   const BuildingSpec& b = pile.building;
   const double bays = b.planned() ? 1 : double(b.bays_x) * b.bays_y;
   const double storeys = b.planned() ? double(b.plan.heights.size()) : b.storeys;
@@ -141,7 +141,8 @@ double count_frames(const std::vector<RecordedSize>& cameras) {
 void add_recordings(const Scenario& s, const std::vector<RecordedSize>& cameras, Estimate& sizes) {
   for (const RecordingFormat& format : recording_formats()) {
     if (!is_wanted(format, s)) continue;
-    const bool apart = format.one_camera && !s.cameras.empty();
+    if (!format.beside.empty()) sizes[format.beside] = 30000;
+    const bool apart = format.one_camera && s.names_cameras();
     std::uint64_t& sum = sizes[apart ? kCamerasFolder : format.leaves];
     for (const RecordedSize& size : cameras) sum += std::uint64_t(format.estimate(size));
   }
@@ -166,7 +167,7 @@ Estimate estimate_outputs(const Scenario& s, const AssetLibrary& assets) {
   const PileModelSize pile = size_of_pile(s, assets);
   const std::vector<RecordedSize> recorded = sizes_of_recording(s, pile.pieces);
   sizes["pile.bin"] =
-      std::uint64_t(pile.pieces * kPieceBytes + count_building_pieces(s, assets) * kBondedPieceBytes + 2000);
+      std::uint64_t(pile.pieces * kPieceBytes + count_building_pieces(s.pile, assets) * kBondedPieceBytes + 2000);
   if (s.victims.count > 0) sizes["victims.json"] = std::uint64_t(s.victims.count) * 400;
   if (s.fines.amount > 0) sizes["fines.bin"] = std::uint64_t(size_of_fines(s.fines).bytes);
   sizes["manifest.json"] = std::uint64_t(count_frames(recorded) * 250 + kManifestBytes);
@@ -189,9 +190,9 @@ std::uint64_t estimate_bytes(const Scenario& s, const AssetLibrary& assets, bool
   return sum;
 }
 
-double count_building_pieces(const Scenario& scenario, const AssetLibrary& assets) {
+double count_building_pieces(const PileScenario& pile, const AssetLibrary& assets) {
   PileCount size(assets);
-  if (scenario.pile.building.given()) add_building(scenario.pile, assets, size);
+  if (pile.building.given()) add_building(pile, assets, size);
   return size.pieces;
 }
 

@@ -38,6 +38,10 @@ class PictureSize {
   }
   double tum() const { return pixels_ * (3 + (measured_ ? 4 : 2)); }
   double euroc() const { return colours() / 3; }
+  // Left pictures and depth; of every sixteenth pixel a point.
+  double nerfstudio() const { return pixels_ * (3 + 2 + 15.0 / 16); }
+  // The masks of pieces share the pixels: a run in each column of eight pixels is a bad case.
+  double coco() const { return pixels_ * (3 + 1); }
   double frames() const {
     return colours() + pixels_ * ((measured_ ? 8 : 4) + ground_truth()) + 25 * events_;
   }

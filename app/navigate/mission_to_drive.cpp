@@ -37,6 +37,7 @@ Scenario make_mission_to_drive(const NavigationWorld& world) {
   robot.position = world.start().translation, robot.rpy_deg = {0, 0, kDegree * portable::atan2(ahead.y, ahead.x)};
   scenario.robots = {robot};
   scenario.robot_run = {};
+  scenario.record_settling = {};  // its camera is on the robot
   SensorItem scanner = make_range_scanner(world.rules(), "points");
   scanner.ride.robot = kRobot, scanner.position = {0, 0, kScannerHeight};
   scenario.sensors = {scanner};

@@ -11,9 +11,9 @@ namespace rubble {
 namespace {
 
 CameraSpec build_spec(const SensorParts& parts, const MountedCamera& mounted, std::size_t number) {
-  CameraSpec spec = build_camera(parts.scenario, mounted, parts.threads);
+  CameraSpec spec = build_camera(mounted, parts.scenario.seed, parts.threads);
   spec.number = int(number);
-  spec.seed = camera_seed(parts.scenario, mounted, parts.noise_seed);
+  spec.seed = camera_seed(mounted, parts.noise_seed);
   return spec;
 }
 
@@ -29,7 +29,7 @@ class FlownCamera : public Sensor {
   FlownCamera(const SensorParts& parts, const MountedCamera& mounted, const CameraSpec& spec, const Flight& flight,
               std::shared_ptr<const MotionPath> way, int first_frame, Renderer& renderer)
       : mounted_(mounted), stamps_(flight.stamps_ns), number_(spec.number), first_frame_(first_frame),
-        start_ns_(parts.scenario.start_ns), way_(std::move(way)), camera_(renderer, spec, flight) {}
+        start_ns_(parts.start_ns), way_(std::move(way)), camera_(renderer, spec, flight) {}
 
   Needs needs() const override {
     const std::int64_t stamp = std::size_t(next_) < stamps_.size() ? stamps_[std::size_t(next_)] : INT64_MAX;
@@ -62,9 +62,9 @@ class FlownCamera : public Sensor {
 class RidingSensor : public Sensor {
  public:
   RidingSensor(const SensorParts& parts, const MountedCamera& mounted, std::size_t number, std::int64_t half_ns)
-      : mounted_(mounted), number_(int(number)), start_ns_(parts.scenario.start_ns), half_ns_(half_ns),
+      : mounted_(mounted), number_(int(number)), start_ns_(parts.start_ns), half_ns_(half_ns),
         rate_hz_(mounted.rate_hz.value_or(parts.scenario.trajectory.rate_hz)),
-        way_(parts.way_of(mounted.ride, camera_key(parts.scenario, mounted))) {}
+        way_(parts.way_of(mounted.ride, mounted.key())) {}
 
   Needs needs() const override {
     const std::int64_t stamp = stamp_ns();
@@ -114,7 +114,7 @@ class RidingCamera : public RidingSensor {
 class DepthSensorByRays : public RidingSensor {
  public:
   DepthSensorByRays(const SensorParts& parts, const MountedCamera& camera, std::size_t number)
-      : RidingSensor(parts, camera, number, 0), depth_(camera, camera_key(parts.scenario, camera), parts.rays, parts.threads) {}
+      : RidingSensor(parts, camera, number, 0), depth_(camera, parts.rays, parts.threads) {}
 
   Sample take() override {
     Frame frame;
@@ -135,14 +135,14 @@ class DepthSensorByRays : public RidingSensor {
 
 std::unique_ptr<Sensor> make_flown_camera(const SensorParts& parts, std::size_t number, const RigFlight& flight, int first_frame,
                                           Renderer& renderer) {
-  const MountedCamera mounted = all_cameras(parts.scenario).at(number);
+  const MountedCamera& mounted = parts.scenario.cameras.at(number);
   return std::make_unique<FlownCamera>(parts, mounted, build_spec(parts, mounted, number), flight.cameras[number],
                                        flight.carriers[number], first_frame, renderer);
 }
 
 // What is developed is what the recorded camera gives, and nothing besides.
 std::unique_ptr<Sensor> make_riding_camera(const SensorParts& parts, std::size_t number, Renderer& renderer) {
-  const MountedCamera mounted = all_cameras(parts.scenario).at(number);
+  const MountedCamera& mounted = parts.scenario.cameras.at(number);
   CameraSpec spec = build_spec(parts, mounted, number);
   spec.channels.clear();
   spec.baseline = 0;
@@ -152,7 +152,7 @@ std::unique_ptr<Sensor> make_riding_camera(const SensorParts& parts, std::size_t
 }
 
 std::unique_ptr<Sensor> make_depth_sensor(const SensorParts& parts, std::size_t number) {
-  return std::make_unique<DepthSensorByRays>(parts, all_cameras(parts.scenario).at(number), number);
+  return std::make_unique<DepthSensorByRays>(parts, parts.scenario.cameras.at(number), number);
 }
 
 }  // namespace rubble

@@ -11,7 +11,7 @@
 
 namespace rubble {
 
-// number: among all_cameras(). first_frame: number of its first frame. The renderer must outlive the sensor.
+// number: in the scenario's list. first_frame: number of its first frame. The renderer must outlive the sensor.
 // Every frame of its flight, with all of its channels.
 std::unique_ptr<Sensor> make_flown_camera(const SensorParts& parts, std::size_t number, const RigFlight& flight, int first_frame,
                                           Renderer& renderer);

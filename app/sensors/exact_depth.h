@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "kernel/base/parallel.h"
@@ -12,13 +11,10 @@
 
 namespace rubble {
 
-// Key of a camera in the mission.
-std::string camera_key(const Scenario& scenario, const MountedCamera& camera);
-
 class ExactDepth {
  public:
-  // key: of the camera in the mission. Throws InputError for a lens that is no pinhole.
-  ExactDepth(const MountedCamera& camera, const std::string& key, std::shared_ptr<RayWorld> world, int threads);
+  // Throws InputError for a lens that is no pinhole.
+  ExactDepth(const MountedCamera& camera, std::shared_ptr<RayWorld> world, int threads);
 
   const Intrinsics& intrinsics() const { return rays_.intrinsics(); }
   // As Frame::depth, of everything where it is at that stamp.

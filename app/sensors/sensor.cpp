@@ -37,21 +37,21 @@ SensorSite make_site(const SensorParts& parts, std::size_t number, const std::sh
   const SensorItem& sensor = scenario.sensors[number];
   SensorSite site;
   site.world_from_sensor = [way, carrier_from_sensor = sensor.carrier_from_sensor()](double t) { return way->at(t) * carrier_from_sensor; };
-  site.start_ns = scenario.start_ns;
+  site.start_ns = parts.start_ns;
   site.rays = parts.rays, site.air = parts.air, site.threads = parts.threads;
   site.seed = sensor.noise_seed(parts.noise_seed);
-  site.cast = [place = site.world_from_sensor, world = parts.rays.get(), start = scenario.start_ns](
+  site.cast = [place = site.world_from_sensor, world = parts.rays.get(), start = parts.start_ns](
                   double t, const std::vector<Vec3>& directions, double range) {
     return cast(*world, place(t).translation, directions, range, start + std::int64_t(t * 1e9 + 0.5));
   };
   site.contact_force = [&robots = parts.robots, number](const std::vector<std::string>&, double from, double to) {
     return robots.contacts.largest_force(robots.felt.at(number).robot, robots.felt[number].links, from, to);
   };
-  const LightScenario& light = scenario.light;
+  const LightScenario& light = scenario.lights.front();
   site.north_deg = light.north_deg;
   site.latitude_deg = light.latitude_deg.value_or(kBostonLatitude);
   site.longitude_deg = light.longitude_deg.value_or(kBostonLongitude);
-  site.utc_s = scenario.start_ns / 1000000000;
+  site.utc_s = parts.start_ns / 1000000000;
   if (light.time) site.utc_s = parse_utc(*light.time).value_or(site.utc_s);
   return site;
 }
@@ -60,7 +60,7 @@ SensorSite make_site(const SensorParts& parts, std::size_t number, const std::sh
 class KindSensor : public Sensor {
  public:
   KindSensor(const SensorParts& parts, std::size_t number, const std::shared_ptr<const MotionPath>& way)
-      : item_(parts.scenario.sensors[number]), number_(int(number)), start_ns_(parts.scenario.start_ns),
+      : item_(parts.scenario.sensors[number]), number_(int(number)), start_ns_(parts.start_ns),
         timing_(item_.figures->timing(item_.rate())), site_(make_site(parts, number, way)),
         meter_(item_.start(site_, parts.noise_seed)) {}
 
@@ -93,7 +93,7 @@ class ImuSensor : public Sensor {
  public:
   ImuSensor(const SensorParts& parts, const ImuScenario& imu, int number, std::shared_ptr<const MotionPath> way)
       : way_(std::move(way)), number_(number), half_ns_(std::int64_t(std::ceil(0.5e9 / imu.model.rate_hz))),
-        imu_(*way_, imu.model, parts.scenario.settle.gravity, seed_of(parts, imu), parts.scenario.start_ns,
+        imu_(*way_, imu.model, parts.scenario.settle.gravity, seed_of(parts, imu), parts.start_ns,
              imu.is_rig() ? std::nullopt : std::optional(imu.rig_from_imu())) {}
 
   Needs needs() const override {
@@ -107,9 +107,9 @@ class ImuSensor : public Sensor {
   }
 
  private:
-  // Of several units each has noise of its own.
+  // Each unit with a name has noise of its own.
   static std::uint64_t seed_of(const SensorParts& parts, const ImuScenario& imu) {
-    return parts.scenario.imus.empty() ? parts.noise_seed : RandomStream(parts.noise_seed, "imus/" + imu.name).next();
+    return imu.named ? RandomStream(parts.noise_seed, "imus/" + imu.name).next() : parts.noise_seed;
   }
 
   std::shared_ptr<const MotionPath> way_;
@@ -120,6 +120,12 @@ class ImuSensor : public Sensor {
 
 }  // namespace
 
+bool is_over(const Sensor::Needs& next, std::int64_t last_ns, bool taken) {
+  constexpr std::int64_t kRounding = 1000;  // of stamps; unit: ns
+  if (next.end == next.stamp) return next.stamp > last_ns;
+  return next.end - kRounding > last_ns && (taken || next.stamp > last_ns);
+}
+
 const std::shared_ptr<const MotionPath>& SensorParts::way_of(const Carrier& carrier, const std::string& key) const {
   const std::shared_ptr<const MotionPath>& way = robots.path_of(carrier, rig);
   if (way) return way;
@@ -127,9 +133,8 @@ const std::shared_ptr<const MotionPath>& SensorParts::way_of(const Carrier& carr
 }
 
 std::unique_ptr<Sensor> make_imu(const SensorParts& parts, std::size_t number) {
-  const ImuScenario imu = all_imus(parts.scenario).at(number);
-  return std::make_unique<ImuSensor>(parts, imu, int(number),
-                                     parts.way_of(imu.ride, parts.scenario.imus.empty() ? "imu" : "imus." + imu.name));
+  const ImuScenario& imu = parts.scenario.imus.at(number);
+  return std::make_unique<ImuSensor>(parts, imu, int(number), parts.way_of(imu.ride, imu.key()));
 }
 
 std::unique_ptr<Sensor> make_sensor(const SensorParts& parts, std::size_t number) {

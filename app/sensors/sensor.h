@@ -31,10 +31,15 @@ class Sensor {
   virtual Sample take() = 0;
 };
 
+// Whether a sensor gives no more by that stamp: it gives samples up to there, and of what lasts only what is whole by then.
+// Where nothing whole fits, it gives one all the same. taken: it gave one.
+bool is_over(const Sensor::Needs& next, std::int64_t last_ns, bool taken);
+
 // What the sensors of a recording or a session share. All of it must outlive them.
 struct SensorParts {
   const Scenario& scenario;
   std::uint64_t noise_seed = 0;             // of the noise of all
+  std::int64_t start_ns = 0;                // stamp of the time 0 of all ways
   const RobotReadings& robots;              // the ways of links, and their contacts
   std::shared_ptr<const MotionPath> rig;    // the way of the rig; null: nothing is known of it
   std::shared_ptr<RayWorld> rays;           // of those that see the scene, else null
@@ -45,7 +50,7 @@ struct SensorParts {
   const std::shared_ptr<const MotionPath>& way_of(const Carrier& carrier, const std::string& key) const;
 };
 
-// number: among all_imus(), and among the scenario's sensors. Both throw InputError where nothing carries it.
+// number: in the scenario's list. Both throw InputError where nothing carries it.
 std::unique_ptr<Sensor> make_imu(const SensorParts& parts, std::size_t number);
 std::unique_ptr<Sensor> make_sensor(const SensorParts& parts, std::size_t number);
 

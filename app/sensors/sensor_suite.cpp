@@ -1,14 +1,13 @@
 #include "app/sensors/sensor_suite.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "app/sensors/camera_sensor.h"
 
 namespace rubble {
 namespace {
-
-constexpr std::int64_t kRounding = 1000;  // of stamps; unit: ns
 
 // What a robot sensed when it was driven.
 class RobotSensor : public Sensor {
@@ -27,43 +26,59 @@ class RobotSensor : public Sensor {
   std::size_t next_ = 0;
 };
 
+// The first stamp of readings at this rate that is not before that one.
+std::int64_t stamp_from(std::int64_t at_ns, std::int64_t start_ns, double rate_hz) {
+  const auto stamp = [&](double k) { return start_ns + std::int64_t(std::floor(k * 1e9 / rate_hz + 0.5)); };
+  double k = std::floor(double(at_ns - start_ns) * 1e-9 * rate_hz);
+  while (stamp(k) < at_ns) ++k;
+  return stamp(k);
+}
+
+std::int64_t stamp_from(std::int64_t at_ns, const std::vector<RobotSample>& samples) {
+  const auto first = std::find_if(samples.begin(), samples.end(), [&](const RobotSample& s) { return s.stamp_ns >= at_ns; });
+  return first == samples.end() ? at_ns : first->stamp_ns;
+}
+
 }  // namespace
 
-SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const SensorBegin& begin,
-                         const Scene& scene, Renderer& renderer, int threads,
+SensorSuite::SensorSuite(const Scenario& scenario, const RigFlight& flight, const SensorBegin& begin,
+                         const Scene& scene, CameraRenderers& renderers, int threads,
                          const RobotReadings& robots) {
-  const bool rays = casts_rays(flown.sensors);
-  const SensorParts parts{flown, begin.noise_seed, robots, flight.path, rays ? std::make_shared<RayWorld>(scene) : nullptr,
-                          std::make_shared<const Medium>(renderer.medium()), threads};
+  const bool rays = casts_rays(scenario.sensors);
+  const SensorParts parts{scenario, begin.noise_seed, flight.start_ns, robots, flight.path, rays ? std::make_shared<RayWorld>(scene) : nullptr,
+                          std::make_shared<const Medium>(renderers.medium()), threads};
   std::int64_t last_ns = 0;
   for (const Flight& camera : flight.cameras) {
     frames_.push_back(int(camera.stamps_ns.size()));
-    last_ns = std::max(last_ns, camera.stamps_ns.back());
+    if (!camera.stamps_ns.empty()) last_ns = std::max(last_ns, camera.stamps_ns.back());
   }
   const auto add = [this](std::unique_ptr<Sensor> sensor, std::int64_t last) { members_.push_back({std::move(sensor), last}); };
-  for (const std::vector<RobotSample>& samples : robots.samples) add(std::make_unique<RobotSensor>(samples), last_ns);
-  const std::vector<ImuScenario> imus = all_imus(flown);
-  for (std::size_t i = 0; i < imus.size(); ++i) add(make_imu(parts, i), robots.end_of(imus[i].ride, flown.start_ns, last_ns));
-  for (std::size_t i = 0; i < flown.sensors.size(); ++i)
-    add(make_sensor(parts, i), robots.end_of(flown.sensors[i].ride, flown.start_ns, last_ns));
+  const auto is_there = [&](const Carrier& carrier) { return robots.path_of(carrier, flight.path) != nullptr; };
+  const auto end_of = [&](const Carrier& carrier, std::int64_t last) {
+    return robots.end_of(carrier, flight.path, flight.start_ns, last);
+  };
+  for (const std::vector<RobotSample>& samples : robots.samples)
+    add(std::make_unique<RobotSensor>(samples), stamp_from(last_ns, samples));
+  for (std::size_t i = 0; i < scenario.imus.size(); ++i) {
+    const ImuScenario& imu = scenario.imus[i];
+    if (!is_there(imu.ride)) continue;
+    add(make_imu(parts, i), end_of(imu.ride, stamp_from(last_ns, flight.start_ns, imu.model.rate_hz)));
+  }
+  for (std::size_t i = 0; i < scenario.sensors.size(); ++i)
+    if (is_there(scenario.sensors[i].ride)) add(make_sensor(parts, i), end_of(scenario.sensors[i].ride, last_ns));
   for (std::size_t i = 0; i < flight.cameras.size(); ++i)
-    add(make_flown_camera(parts, i, flight, begin.frames.empty() ? 0 : begin.frames[i], renderer), last_ns);
+    if (is_there(scenario.cameras[i].ride))
+      add(make_flown_camera(parts, i, flight, begin.frames.empty() ? 0 : begin.frames[i], renderers.of(i)), last_ns);
 }
 
 int SensorSuite::count_frames() const { return std::accumulate(frames_.begin(), frames_.end(), 0); }
-
-// Whole scans, as other streams end with the last frame; where none fits, one all the same.
-bool SensorSuite::Member::is_over(const Sensor::Needs& next) const {
-  if (next.end == next.stamp) return next.stamp > last_ns;
-  return next.end > last_ns + kRounding && (taken || next.stamp > last_ns);
-}
 
 std::optional<Sample> SensorSuite::take() {
   Member* first = nullptr;
   std::int64_t stamp = INT64_MAX;
   for (Member& member : members_) {
     const Sensor::Needs next = member.sensor->needs();
-    if (next.stamp < stamp && !member.is_over(next)) first = &member, stamp = next.stamp;
+    if (next.stamp < stamp && !is_over(next, member.last_ns, member.taken)) first = &member, stamp = next.stamp;
   }
   if (!first) return std::nullopt;
   first->taken = true;

@@ -31,12 +31,13 @@ class RobotSenses;
 class ScriptControl;
 class Sensor;
 
-// What is measured besides what the functions of robots are told.
+// What is measured besides what the functions of robots are told, and when it starts.
 struct SessionOptions {
   bool observed = false;  // robots and the sensors on them, for observe()
   bool depth = false;     // and the exact depth of the cameras on robots
   bool recorded = false;  // all is kept, for finish()
   bool restarts = false;  // start() is called more than once: the pile is laid the first time only
+  std::optional<std::int64_t> start_ns{};  // stamp of the robots' time 0; not given: the mission's
 };
 
 class Session {
@@ -97,6 +98,7 @@ class Session {
   const PileState& pile_;
   RunContext& context_;
   SessionOptions options_;
+  std::int64_t start_ns_;
   RobotRunOptions run_options_;
   Pile laid_;
   std::vector<std::string> names_;
@@ -113,7 +115,12 @@ class Session {
   std::unique_ptr<ScriptControl> script_;
   std::shared_ptr<RayWorld> world_of_rays_;
   std::unique_ptr<LiveColours> colours_;
-  std::vector<std::unique_ptr<Sensor>> sensors_;
+  struct Carried {
+    std::unique_ptr<Sensor> sensor;
+    Carrier carrier;
+    bool taken = false;  // whether it gave a sample
+  };
+  std::vector<Carried> sensors_;
   std::vector<Sample> measured_;  // for observe()
 };
 

@@ -5,6 +5,7 @@
 #include "io/base/folder_writer.h"
 #include "io/base/little_endian.h"
 #include "io/base/number_text.h"
+#include "io/datasets/pose_rows.h"
 
 namespace rubble {
 namespace {
@@ -46,12 +47,8 @@ std::string motion_lines(const RangeScan& scan, std::int64_t& last_ns) {
 }
 
 std::string kitti_pose(const Pose& pose) {
-  const Mat3 r = pose.rotation.matrix();
-  const Vec3& t = pose.translation;
   std::string line;
-  for (int i = 0; i < 3; ++i)
-    for (const double v : {r.rows[i].x, r.rows[i].y, r.rows[i].z, t[i]})
-      line += (line.empty() ? "" : " ") + fixed_text(v, 9);
+  for (const double v : pose_rows(pose)) line += (line.empty() ? "" : " ") + fixed_text(v, 9);
   return line + "\n";
 }
 

@@ -52,6 +52,7 @@ class ReadingFormat {
   // Meanings of Reading::values, in their order; empty: its readings are scans.
   virtual std::vector<ReadingColumn> columns() const = 0;
   virtual double most_points() const { return 0; }  // of a scan, with all its echoes; 0: it does not scan
+  virtual std::shared_ptr<const LidarSpec> scan_spec() const { return nullptr; }  // of its scans, where their rays go; null: no scans
   virtual std::string sample_name() const { return "reading"; }  // of what it gives: to Python
 
   // A reading is a message on each of these, below the sensor's own topic.

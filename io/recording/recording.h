@@ -33,6 +33,7 @@ struct Legend {
   struct Piece {
     std::uint16_t label = 0;  // class, as in the stream `label`
     std::string asset;        // name of its type
+    bool victim = false;      // whether it is a person
   };
   std::vector<std::string> labels;  // by label: "sky", "ground", then the assets
   std::vector<Piece> pieces;        // by piece number

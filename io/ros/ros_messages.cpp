@@ -228,7 +228,8 @@ std::string put_odometry(Version version, const Header& header, const std::strin
   return out.take();
 }
 
-constexpr double kUnknown = 1e6, kLeast = 1e-6;  // variances in SI units
+// Variances in SI units. Of the truth it is not 0: filters cannot invert that, and readers take it for an unknown one.
+constexpr double kUnknown = 1e6, kLeast = 1e-6, kExact = 1e-9;
 
 Covariance unknown_out_of_plane() {
   Covariance covariance{};
@@ -240,7 +241,9 @@ Covariance unknown_out_of_plane() {
 
 std::string true_odometry(Version version, const Header& header, const std::string& child, const Pose& pose,
                           const Vec3& linear, const Vec3& angular) {
-  return put_odometry(version, header, child, pose, {}, linear, angular, {});
+  Covariance exact{};
+  for (std::size_t axis = 0; axis < 6; ++axis) exact[axis][axis] = kExact;
+  return put_odometry(version, header, child, pose, exact, linear, angular, exact);
 }
 
 std::string odometry(Version version, const Header& header, const std::string& child, const RobotSample::Odometry& o) {

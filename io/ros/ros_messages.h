@@ -68,7 +68,8 @@ std::string imu(Version version, const Header& header, const ImuSample& sample,
 std::string joint_state(Version version, const Header& header, const std::vector<std::string>& names,
                         const std::vector<double>& positions, const std::vector<double>& speeds,
                         const std::vector<double>& efforts);
-// header.frame: the one that `pose` is in; velocities in the child's own. Exact, so its covariances are all 0.
+// header.frame: the one that `pose` is in; velocities in the child's own. Exact: its variances are 1e-9,
+// which filters can invert.
 std::string true_odometry(Version version, const Header& header, const std::string& child, const Pose& pose,
                           const Vec3& linear, const Vec3& angular);
 // What dead reckoning does not tell (height, roll, pitch) has the variance 1e6; no other is below 1e-6.

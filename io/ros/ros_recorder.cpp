@@ -5,6 +5,7 @@
 #include "io/image/depth_encoding.h"
 #include "io/image/image_file.h"
 #include "io/image/jpeg_file.h"
+#include "io/ros/vector_colours.h"
 #include "io/recording/frame_order.h"
 #include "io/ros/robot_topics.h"
 #include "render/streams/image_streams.h"
@@ -27,7 +28,7 @@ StreamSet floats_first(StreamSet streams) {
 // Numbers of a camera's topics.
 struct CameraTopics {
   std::uint32_t rgb_info = 0, rgb = 0, depth_info = 0, depth = 0, right_info = 0, right = 0,
-                events = 0, true_depth_info = 0, true_depth = 0;
+                events = 0, true_depth_info = 0, true_depth = 0, pose = 0;
   std::vector<std::uint32_t> truth;  // of the streams
 };
 
@@ -101,6 +102,7 @@ class RosRecorder : public Recorder {
 
  private:
   bool compressed() const { return options_.pictures != RosPictures::raw; }
+  bool has_colours(const ImageStream& stream) const { return options_.vector_colours && stream.components > 1 && std::holds_alternative<PixelMaker<float>>(stream.make); }
   bool packed_depth() const { return compressed() && options_.depth == RosDepth::millimetres; }
 
   // Other sensors stand among the topics of the first camera, before its ground truth.
@@ -153,12 +155,13 @@ class RosRecorder : public Recorder {
 
   void add_ground_truth(const CameraRecord& camera, CameraTopics& topics) {
     const std::string truth = camera.truth_topic + "/";
+    if (!camera.carrier.empty()) topics.pose = file_->add(truth + "pose", ros::kPoseStamped, false);
     if (camera.channels.measured_depth) {
       topics.true_depth_info = file_->add(truth + "depth/camera_info", ros::kCameraInfo, false);
       topics.true_depth = file_->add(truth + "depth/image", ros::kImage, false);
     }
     for (const ImageStream* stream : camera.channels.truth)
-      topics.truth.push_back(file_->add(truth + stream->name + "/image", ros::kImage, false));
+      topics.truth.push_back(file_->add(truth + stream->name + (has_colours(*stream) ? "/colours/image" : "/image"), ros::kImage, false));
   }
 
   std::uint32_t add_picture(const std::string& topic) {
@@ -280,6 +283,8 @@ class RosRecorder : public Recorder {
 
   void write_ground_truth(const Frame& frame, const CameraRecord& camera,
                           const CameraTopics& topics) {
+    if (!camera.carrier.empty())
+      send(topics.pose, frame, ros::pose_stamped(version_, header(frame, ros::kWorld), frame.world_from_camera));
     if (camera.channels.measured_depth) {
       send(topics.true_depth_info, frame,
            ros::camera_info(version_, header(frame, camera.optical), frame.intrinsics));
@@ -288,6 +293,11 @@ class RosRecorder : public Recorder {
     const StreamSet& streams = camera.channels.truth;
     for (std::size_t i = 0; i < streams.size(); ++i) {
       const ImageStream& stream = *streams[i];
+      if (has_colours(stream)) {
+        const auto& values = *std::get<const std::vector<float>*>(*find_image(frame, stream));
+        send_image(topics.truth[i], frame, camera.optical, "rgb8", 3, colour_vectors(stream, values, frame.intrinsics.width));
+        continue;
+      }
       std::visit(
           [&](const auto* values) {
             send_image(topics.truth[i], frame, camera.optical, stream.ros_encoding(),

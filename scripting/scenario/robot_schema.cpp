@@ -15,10 +15,10 @@ std::string key_of(std::size_t robot, const std::string& member) {
 // They light what the cameras see, as other lights do.
 void check_lamps(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   const std::size_t lamps = count_lamps(scenario.robots);
-  if (lamps == 0 || lamps + scenario.lights.size() + 1 <= kMostLights) return;
+  if (lamps == 0 || lamps + scenario.lights.size() <= kMostLights) return;
   mistakes.push_back({"", 0, "robots", "too many lamps",
                       "at most " + std::to_string(kMostLights - 1) + " lamps of robots and `lights` together",
-                      std::to_string(lamps) + " and " + std::to_string(scenario.lights.size()), ""});
+                      std::to_string(lamps) + " and " + std::to_string(scenario.lights.size() - 1), ""});
 }
 
 // What a function is to be told of must be there.
@@ -28,11 +28,11 @@ void check_senses(const Scenario& scenario, std::size_t i, std::vector<Diagnosti
   if (robot.control == 0)
     mistakes.push_back({"", 0, key_of(i, "senses"), "there is no controller", "a function as `control`", "no function", ""});
   std::vector<std::string> names;
-  for (const MountedCamera& camera : all_cameras(scenario)) {
+  for (const MountedCamera& camera : scenario.cameras) {
     names.push_back(camera.name);
     names.push_back(colour_sense(camera.name));
   }
-  for (const ImuScenario& imu : all_imus(scenario)) names.push_back(imu.name);
+  for (const ImuScenario& imu : scenario.imus) names.push_back(imu.name);
   for (const SensorItem& sensor : scenario.sensors) names.push_back(sensor.name);
   std::string all;
   for (const std::string& name : names) all += (all.empty() ? "one of " : ", ") + name;
@@ -77,18 +77,14 @@ void check_sensor_rides(const Scenario& scenario, const std::vector<std::string>
                         std::vector<Diagnostic>& mistakes) {
   bool mixed = false;
   for (const MountedCamera& camera : scenario.cameras) {
-    check_carrier(camera.ride, "cameras." + camera.name + ".ride", names, mistakes);
+    check_carrier(camera.ride, camera.key() + ".ride", names, mistakes);
     mixed = mixed || !(camera.ride == scenario.cameras.front().ride);
   }
-  check_carrier(scenario.imu.ride, "imu.ride", names, mistakes);
-  for (const ImuScenario& imu : scenario.imus)
-    check_carrier(imu.ride, "imus." + imu.name + ".ride", names, mistakes);
+  for (const ImuScenario& imu : scenario.imus) check_carrier(imu.ride, imu.key() + ".ride", names, mistakes);
   for (const SensorItem& sensor : scenario.sensors) check_carrier(sensor.ride, sensor.key() + ".ride", names, mistakes);
   const auto on_rig = [](const auto& sensor) { return !sensor.ride.on(); };
-  const std::vector<ImuScenario> imus = all_imus(scenario);
-  const bool unseen = !scenario.cameras.empty() &&
-                      std::none_of(scenario.cameras.begin(), scenario.cameras.end(), on_rig);
-  if (unseen && (std::any_of(imus.begin(), imus.end(), on_rig) ||
+  const bool unseen = std::none_of(scenario.cameras.begin(), scenario.cameras.end(), on_rig);
+  if (unseen && (scenario.has_unit_on_rig() ||
                  std::any_of(scenario.sensors.begin(), scenario.sensors.end(), on_rig)))
     mistakes.push_back({"", 0, "cameras", "no camera is on the rig, but another sensor is",
                         "a camera on the rig, or a `ride` for every other sensor on it", "", ""});
@@ -123,9 +119,11 @@ void add_robot_keys(Schema& k, Scenario& s) {
 
 void check_robots(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   const std::vector<std::string> names = robot_names(scenario.robots);
-  if (!names.empty() && scenario.record_settling.on)
-    mistakes.push_back({"", 0, "record_settling", "robots start with the first frame",
-                        "one of robots and record_settling", "both", ""});
+  const bool watched = !scenario.trajectory.ride.on() && std::any_of(scenario.cameras.begin(), scenario.cameras.end(),
+                                                                     [](const MountedCamera& c) { return !c.ride.on(); });
+  if (scenario.record_settling.on && !watched)
+    mistakes.push_back({"", 0, "record_settling", "robots start when the pile rests, and every camera is on a robot",
+                        "a camera without `ride`, and a `trajectory` without `ride`", "", ""});
   check_ride(scenario, names, mistakes);
   check_sensor_rides(scenario, names, mistakes);
   check_lamps(scenario, mistakes);

@@ -123,6 +123,7 @@ class LidarKind : public SensorKind {
     const LidarSpec spec = f_.spec();
     return spec.rays() * (spec.returns == LidarReturns::dual ? 2.0 : 1.0);
   }
+  std::shared_ptr<const LidarSpec> scan_spec() const override { return std::make_shared<const LidarSpec>(f_.spec()); }
   std::string sample_name() const override { return "lidar"; }
   std::vector<Topic> topics() const override { return {{"", f_.planar() ? &ros::kLaserScan : &ros::kPointCloud}}; }
   std::string message(std::size_t, ros::Version version, const ros::Header& header, const Reading& reading) const override {

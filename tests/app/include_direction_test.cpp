@@ -119,7 +119,7 @@ const Allowed kRender = stack(
 
 const Allowed kIo = stack(
     {"io/base/", "io/image/", "io/import/", "io/mesh_formats/", "io/mesh/", "io/state/", "io/robot/", "io/scenes/", "io/recording/", "io/ros/", "io/mrpt/",
-     "io/datasets/", "io/playback/", "io/live/"},
+     "io/datasets/", "io/learning/", "io/playback/", "io/live/"},
     {"kernel/base/", "kernel/model/fines.h", "kernel/model/pile_state.h", "kernel/model/pile.h", "kernel/model/track.h", "kernel/model/robot.h",
      "kernel/model/assembly.h", "kernel/geometry/hull.h",
      "kernel/settling/settle_checkpoint.h", "render/scene/", "render/streams/image_streams.h"});
@@ -267,7 +267,8 @@ const std::map<std::string, Prefixes> kDoors{
       "app/navigate/mission_to_drive.cpp", "app/navigate_ros1/main.cpp",
       "app/robots/robot_files.cpp", "app/planning/flight.cpp", "app/provenance/", "app/report/",
       "app/search/program_agent.cpp", "app/support/", "app/victims/place_victims.cpp", "app/view/", "bench/",
-      "io/datasets/frames_recorder.cpp", "io/mesh_formats/gltf_document.h", "io/mesh/glb_writer.cpp", "io/recording/recording.cpp", "io/scenes/scene_text.cpp",
+      "io/datasets/coco_recorder.cpp", "io/datasets/colmap_recorder.cpp", "io/datasets/frames_recorder.cpp",
+      "io/datasets/nerfstudio_recorder.cpp", "io/datasets/webdataset_recorder.cpp", "io/learning/lerobot_recorder.cpp", "io/mesh_formats/gltf_document.h", "io/mesh/glb_writer.cpp", "io/recording/recording.cpp", "io/scenes/scene_text.cpp",
       "io/voids/void_json.cpp", "scripting/reference/json_schema.cpp",
       "scripting/scenario/scenario_json.cpp"}}};
 

@@ -286,7 +286,7 @@ TEST(LidarInput, MistakesAreNamed) {
   expect("lidars = { top = { model = \"os1\", columns = 600 } }", "lidars.top.columns: the model has no such version");
   expect("lidars = { top = { min_range = 50, max_range = 20 } }", "lidars.top.max_range: the range is empty");
   expect("lidars = { Top = {} }", "lidars.Top: not a name of a sensor");
-  expect("lidars = { a = { topic = \"/imu\" } }", "lidars.a.topic: the name is taken");
+  expect("imu = true, lidars = { a = { topic = \"/imu\" } }", "lidars.a.topic: the name is taken");
   expect("outputs = { pcd = true }", "outputs.pcd: there is nothing to write");
 }
 

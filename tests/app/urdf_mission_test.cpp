@@ -41,9 +41,10 @@ TEST(Urdf, FramesOfRobotsDoNotClashWithThoseOfSensors) {
   }
   EXPECT_EQ(record_of("/X1/mast").frame_named("/X1/mast"), "X1/mast") << "tf2 refuses slashes in front";
   EXPECT_EQ(record_of("L\xc3\xb6we").frame_named("L\xc3\xb6we"), "L\xc3\xb6we");
-  scenario.imu.frame_id = "bot/mast";
+  scenario.imus.resize(1);
+  scenario.imus[0].frame_id = "bot/mast";
   EXPECT_EQ(record_of("mast").frame, "") << "bot/mast is another frame than mast";
-  scenario.imu.frame_id = "bot/camera_link";
+  scenario.imus[0].frame_id = "bot/camera_link";
   EXPECT_THROW(record_of("camera_link"), InputError);
 }
 

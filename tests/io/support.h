@@ -70,6 +70,17 @@ class FixedObservation : public ReadingFormat {
   RawlogObservation observation_;
 };
 
+// Of a sensor that scans in this way.
+class FixedScans : public FixedObservation {
+ public:
+  explicit FixedScans(LidarSpec spec) : FixedObservation({}), spec_(std::make_shared<const LidarSpec>(std::move(spec))) {}
+  double most_points() const override { return spec_->rays(); }
+  std::shared_ptr<const LidarSpec> scan_spec() const override { return spec_; }
+
+ private:
+  std::shared_ptr<const LidarSpec> spec_;
+};
+
 std::string read_text(const std::string& path);  // empty when there is none
 bool exists(const std::string& path);
 

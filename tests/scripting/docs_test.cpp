@@ -89,8 +89,8 @@ TEST(LuaAnnotations, HaveTheFunctionsThatAScriptHas) {
 }
 
 TEST(LuaAnnotations, HaveEveryKeyWithItsType) {
-  Scenario scenario;
-  const Schema schema = make_scenario_schema(scenario);
+  MissionForm form;
+  const Schema schema = make_scenario_schema(form);
   const std::string text = lua_annotations();
   for (const Key& key : schema.keys())
     EXPECT_NE(text.find("---@field " + key.name() + (key.required ? " " : "? ")), std::string::npos)
@@ -107,8 +107,8 @@ TEST(LuaReference, MarkersMustBeThere) {
 }
 
 TEST(LuaReference, HasEveryKeyAndName) {
-  Scenario scenario;
-  const Schema schema = make_scenario_schema(scenario);
+  MissionForm form;
+  const Schema schema = make_scenario_schema(form);
   const std::string text = lua_reference();
   for (const Key& key : schema.keys()) {
     const bool row = text.find("|`" + key.name() + "`|") != std::string::npos;

@@ -73,13 +73,11 @@ void prepare_inspection_folder(const std::string& folder, bool force) {
 // What is drawn: a plain camera, and quickly, since all that can move is lit anew for every picture.
 Scenario choose_drawn(const Scenario& of, int width, int height) {
   Scenario drawn = of;
-  drawn.cameras.clear();
-  drawn.camera = {};
-  drawn.camera.width = width, drawn.camera.height = height, drawn.camera.fov_deg = kFieldOfView;
-  drawn.camera.channels = {"instance"};
-  drawn.camera.colour.quality = RenderQuality::draft;
-  drawn.depth_sensor = {};
-  drawn.event_camera = {};
+  drawn.cameras = {MountedCamera{}};
+  CameraScenario& camera = drawn.cameras.front().camera;
+  camera.width = width, camera.height = height, camera.fov_deg = kFieldOfView;
+  camera.channels = {"instance"};
+  camera.colour.quality = RenderQuality::draft;
   drawn.lamp.on = false;
   return drawn;
 }
@@ -152,7 +150,7 @@ bool Inspector::leaving() const {
   return quit_ || next_ || stop_requested() || (request_.steps > 0 && turns_ >= request_.steps);
 }
 
-double Inspector::step_time() const { return robots_ ? robots_->step_time() : mission_->pile_scenario.settle.step; }
+double Inspector::step_time() const { return robots_ ? robots_->step_time() : mission_->scenario.settle.step; }
 
 void Inspector::enter(std::optional<std::uint64_t> seed) {
   window_.set_title("rubble inspect: loading");
@@ -183,7 +181,7 @@ void Inspector::draw_scene(const Scene& scene) {
 
 void Inspector::open_eye() {
   const Scenario drawn = choose_drawn(mission_->scenario, request_.width, request_.height);
-  eye_ = std::make_unique<Camera>(*renderer_, build_camera(drawn, all_cameras(drawn).front(), run_->threads()), Flight{});
+  eye_ = std::make_unique<Camera>(*renderer_, build_camera(drawn.cameras.front(), drawn.seed, run_->threads()), Flight{});
   frames_ = 0;
 }
 
@@ -197,7 +195,7 @@ void Inspector::run() {
         drawn_ = pile_->all_pieces();
         lay_surroundings(mission_->scenario, mission_->assets, drawn_);
         draw_scene(build_live_scene(choose_drawn(mission_->scenario, request_.width, request_.height), mission_->assets, drawn_,
-                                    {}, [this](int id, std::int64_t) -> std::optional<Pose> {
+                                    {}, mission_->scenario.start_ns, [this](int id, std::int64_t) -> std::optional<Pose> {
                                       if (id >= world().size()) return std::nullopt;  // it falls later
                                       const PieceState piece = world().piece(id);
                                       if (piece.status == PieceStatus::lost) return std::nullopt;
@@ -446,7 +444,7 @@ void Inspector::add_cameras(std::vector<OverlayLine>& lines) {
       if (flight_.empty()) return std::nullopt;
       return flight_[frame].world_from_camera;
     };
-    for (const PlacedCamera& camera : place_cameras(scenario, carrier_of)) add_frustum(camera, kFrustumLength, lines);
+    for (const PlacedCamera& camera : place_cameras(scenario.cameras, carrier_of)) add_frustum(camera, kFrustumLength, lines);
   }
 }
 
@@ -477,7 +475,7 @@ std::vector<PictureLabel> Inspector::legend() const {
   if (choice_.hulls) rows.push_back({"hulls", Overlay::kHullColour});
   if (choice_.contacts) rows.push_back({"contact forces, 0.1 mm/N", Overlay::kContactColour});
   if (choice_.cameras)
-    for (const PlacedCamera& camera : place_cameras(mission_->scenario, [](const MountedCamera&) { return Pose(); }))
+    for (const PlacedCamera& camera : place_cameras(mission_->scenario.cameras, [](const MountedCamera&) { return Pose(); }))
       rows.push_back({"view of " + camera.name, camera.colour});
   if (choice_.voids) rows.push_back(voids_->label());
   if (spring_.holds()) {

@@ -4,6 +4,7 @@ rubble/CrawlerNav-v0 and rubble/SnakeExplore-v0; and memory at the end. A step o
 
 usage: PYTHONPATH=build/release/python /usr/bin/python3 bench/envs_bench.py [--steps 500] [--threads 1,2]
        ... --colour --write docs/development/robots.md   writes the table into a document, between its marks
+       ... --batch 64 [--write ...]                      instead: a batch of so many beside one, and resets
 """
 import argparse
 import os
@@ -13,7 +14,7 @@ import time
 
 import numpy as np
 
-from rubble.envs import CrawlerNav, SnakeExplore, VoidExplore
+from rubble.envs import Batch, CrawlerNav, SnakeExplore, VoidExplore
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "tools"))
 from document_marks import write_between_marks  # noqa: E402
@@ -28,6 +29,44 @@ def measure(env, steps):
         if any(env.step(action)[2:4]):
             env.reset()
     return steps / (time.perf_counter() - start[0]), steps / (time.process_time() - start[1])
+
+
+def measure_batch(make, count, threads, steps):
+    """As measure(), of a Batch: steps of its environments."""
+    batch = Batch(make, count, threads)
+    batch.reset(seed=1)
+    rounds = max(steps // count, 2)
+    actions = np.random.default_rng(1).uniform(-1, 1, (rounds, *batch.action_space.shape))
+    start = time.perf_counter(), time.process_time()
+    for action in actions:
+        batch.step(action)
+    times = time.perf_counter() - start[0], time.process_time() - start[1]
+    batch.close()
+    return [rounds * count / taken for taken in times]
+
+
+def measure_reset(make, count=20):
+    """Milliseconds of processor that a reset takes where the pile is settled."""
+    env = make()
+    env.reset(seed=1)
+    start = time.process_time()
+    for seed in range(count):
+        env.reset(seed=seed)
+    return 1000 * (time.process_time() - start) / count
+
+
+def compare_batch(count, steps):
+    """Lines of a table."""
+    lines = [f"|environment|reset, ms of processor|one: steps in a second of processor|{count}, 1 thread|{count}, 2 threads|",
+             "|---|---|---|---|---|"]
+    for kind, options in ((VoidExplore, {"size": 32}), (CrawlerNav, {}), (SnakeExplore, {"size": 16})):
+        def make():
+            return kind(max_steps=100, pile_seeds=[1], **options)
+        own = make()  # keeps the pile
+        reset, (_, one) = measure_reset(make), measure(own, steps)
+        many = [measure_batch(make, count, threads, steps)[1] for threads in (1, 2)]
+        lines.append(f"|`{kind.__name__}`|{reset:.1f}|{one:.0f}|{many[0]:.0f}|{many[1]:.0f}|")
+    return lines
 
 
 def list_cases(threads, colour):
@@ -45,8 +84,15 @@ def main():
     parser.add_argument("--steps", type=int, default=500)
     parser.add_argument("--threads", default="1,2")
     parser.add_argument("--colour", action="store_true", help="with pictures in colour too, whose light is baked first")
+    parser.add_argument("--batch", type=int, metavar="COUNT")
     parser.add_argument("--write", metavar="DOCUMENT")
     args = parser.parse_args()
+    if args.batch:
+        lines = compare_batch(args.batch, args.steps)
+        print("\n".join(lines))
+        if args.write:
+            write_between_marks(args.write, "batch", "\n".join(lines) + "\n")
+        return
     lines = ["| environment | threads | steps in a second | in a second of processor |", "|---|---|---|---|"]
     for threads in map(int, args.threads.split(",")):
         for name, env in list_cases(threads, args.colour):

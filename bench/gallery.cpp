@@ -50,8 +50,8 @@ class Piles {
     if (found != piles_.end()) return found->second;
     SettleOptions options = scenario.settle;
     options.threads = threads_;
-    PileState& pile = piles_[key] = settle_pile(generate_pile(build_pile_spec(scenario, assets)), options);
-    lay_fines(scenario, assets, threads_, pile);
+    PileState& pile = piles_[key] = settle_pile(generate_pile(build_pile_spec(scenario.pile, scenario.seed, assets)), options);
+    lay_fines(scenario.fines, scenario.seed, assets, threads_, pile);
     return pile;
   }
 
@@ -69,15 +69,16 @@ Frame take(GlContext& context, const GalleryPicture& picture, Piles& piles, int 
   RenderOptions options;
   options.threads = threads;
   options.cache_folder = DiskCache::usual_folder();
-  options.colour = scenario.camera.colour;
+  options.colour = scenario.cameras.front().camera.colour;
   PileState pile = piles.of(picture, scenario, assets);
   lay_surroundings(scenario, assets, pile);
   Renderer renderer(context, build_scene(scenario, assets, pile),
                     options);
-  const MountedCamera mounted = all_cameras(scenario).front();
-  CameraSpec spec = build_camera(scenario, mounted, threads);
+  const MountedCamera& mounted = scenario.cameras.front();
+  CameraSpec spec = build_camera(mounted, scenario.seed, threads);
   ask_for_channel(picture.channel, spec);
-  Camera camera(renderer, spec, build_flight(scenario, mounted, std::make_shared<const CameraPath>(scenario.trajectory)));
+  Camera camera(renderer, spec, build_flight(mounted, scenario.start_ns, scenario.trajectory.rate_hz,
+                                             std::make_shared<const CameraPath>(scenario.trajectory)));
   if (picture.frame >= camera.frames())
     throw RunError(picture.name + ": frame " + std::to_string(picture.frame) + " of " +
                    std::to_string(camera.frames()));

@@ -10,7 +10,7 @@
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
 #include "render/lidar/lidar.h"
-#include "scripting/scenario/lidar_scenario.h"
+#include "scripting/sensors/lidar.h"
 
 namespace rubble {
 namespace {
@@ -57,14 +57,14 @@ struct Rate {
   double processor = 0;  // of all threads: where other programs share the processors it alone means something; unit: s
 };
 
-Rate measure(LidarModel model, const Scene& scene, std::shared_ptr<LidarWorld> world, int threads, int scans) {
-  LidarScenario scenario;
-  scenario.model = model;
+Rate measure(LidarModel model, const Scene& scene, std::shared_ptr<RayWorld> world, int threads, int scans) {
+  LidarFigures figures;
+  figures.model = model;
   const auto moving = [](std::int64_t stamp_ns) {
     const double t = double(stamp_ns) * 1e-9 - 1;
     return Pose{{}, {-4 + 0.5 * t, 0.2 * t, 1.2}};
   };
-  Lidar lidar(scenario.spec(), std::move(world), {moving, 1'000'000'000}, Medium(scene.air, scene.seed), 3, threads);
+  Lidar lidar(figures.spec(), std::move(world), {moving, 1'000'000'000}, Medium(scene.air, scene.seed), 3, threads);
   lidar.take(0);
   Rate rate;
   const auto start = std::chrono::steady_clock::now();
@@ -76,19 +76,16 @@ Rate measure(LidarModel model, const Scene& scene, std::shared_ptr<LidarWorld> w
 }
 
 void run(const std::vector<int>& threads, int scans, int stones) {
-  const std::pair<LidarModel, const char*> models[] = {
-      {LidarModel::vlp16, "vlp16"}, {LidarModel::os0, "os0"}, {LidarModel::os1, "os1"}, {LidarModel::os2, "os2"},
-      {LidarModel::mid360, "mid360"}, {LidarModel::utm30lx, "utm30lx"}};
   Scene clear = make_field(stones), smoke = clear;
   smoke.air.fog_density = 0.1;
-  const auto world = std::make_shared<LidarWorld>(clear);
+  const auto world = std::make_shared<RayWorld>(clear);
   std::printf("%-8s %7s %9s %14s %16s %22s\n", "model", "threads", "air", "points/scan", "points/s of wall",
               "points/s of processor");
-  for (const auto& [model, name] : models)
+  for (std::size_t model = 0; model < lidar_model_names().size(); ++model)
     for (const int count : threads)
       for (const Scene* scene : {&clear, &smoke}) {
-        const Rate rate = measure(model, *scene, world, count, scans);
-        std::printf("%-8s %7d %9s %14.0f %16.0f %22.0f\n", name, count, scene == &clear ? "clear" : "0.1 /m",
+        const Rate rate = measure(LidarModel(model), *scene, world, count, scans);
+        std::printf("%-8s %7d %9s %14.0f %16.0f %22.0f\n", lidar_model_names()[model].c_str(), count, scene == &clear ? "clear" : "0.1 /m",
                     rate.points / scans, rate.points / rate.seconds, rate.points / rate.processor);
       }
 }

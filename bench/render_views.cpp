@@ -75,7 +75,7 @@ void strew_timed(const Scenario& scenario, const AssetLibrary& assets, int threa
                  void (*report)(const char*)) {
   const auto start = std::chrono::steady_clock::now();
   const std::clock_t processor = std::clock();
-  lay_fines(scenario, assets, threads, state);
+  lay_fines(scenario.fines, scenario.seed, assets, threads, state);
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   char line[120];
   std::snprintf(line, sizeof line, "%zu fines strewn in %.2f s, %.2f CPU s",
@@ -91,7 +91,7 @@ Scene load_bench_scene(const std::string& mission_path, int threads, void (*repo
   Mission mission = load_mission(mission_path, {});
   mission.scenario.settle.threads = threads;
   const AssetLibrary assets = load_assets(mission, {});
-  const Pile pile = generate_pile(build_pile_spec(mission.scenario, assets));
+  const Pile pile = generate_pile(build_pile_spec(mission.scenario.pile, mission.scenario.seed, assets));
   PileState state = settle_once(pile, mission.scenario.settle, mission_path, assets, report);
   mission.scenario.fines.amount = fines;
   if (fines > 0) strew_timed(mission.scenario, assets, threads, state, report);

@@ -1,4 +1,4 @@
-# The libraries for programs of others, as targets of this build: Rubble::kernel, Rubble::files, Rubble::voids.
+# The libraries for programs of others, as targets of this build: Rubble::kernel, robots, files and voids.
 # `add_subdirectory(rubble)` gives them, and RubblePackage.cmake installs them: docs/reference/library.md.
 #
 # Public headers are copied to include/rubble of the build, with the prefix in their own includes, so that a program sees
@@ -29,8 +29,7 @@ set(RUBBLE_PUBLIC_HEADERS
   kernel/model/track.h
   kernel/model/track_builder.h
   kernel/model/world_input.h
-  kernel/robot/bundled.h
-  kernel/robot/gaits.h
+  kernel/robot/drive_commands.h
   kernel/robot/odometry.h
   kernel/robot/robot_run.h
   kernel/settling/collapse_report.h
@@ -44,8 +43,12 @@ set(RUBBLE_PUBLIC_HEADERS
   kernel/world/world_rest.h
   kernel/world/world_robots.h
   kernel/world/world_snapshot.h
-  kernel/world/world_structures.h)
-set(RUBBLE_LIBRARIES rubble_base rubble_kernel rubble_files)
+  kernel/world/world_structures.h
+  scripting/robots/crawler.h
+  scripting/robots/rover.h
+  scripting/robots/snake.h
+  scripting/robots/vine.h)
+set(RUBBLE_LIBRARIES rubble_base rubble_kernel rubble_robots rubble_files)
 if(TARGET rubble_voids)
   list(APPEND RUBBLE_LIBRARIES rubble_queries rubble_voids)
   list(APPEND RUBBLE_PUBLIC_HEADERS
@@ -86,6 +89,7 @@ function(rubble_public name)
   endforeach()
 endfunction()
 rubble_public(kernel rubble_kernel)
+rubble_public(robots rubble_robots rubble_kernel)
 rubble_public(files rubble_files rubble_kernel)
 if(TARGET rubble_voids)
   rubble_public(voids rubble_voids)

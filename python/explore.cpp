@@ -11,7 +11,7 @@
 #include "kernel/voids/seen_cells.h"
 #include "python/arrays.h"
 #include "python/parts.h"
-#include "render/lidar/depth_rays.h"
+#include "render/rays/depth_rays.h"
 
 namespace rubble::python {
 namespace {
@@ -30,15 +30,29 @@ VoxelGrid grid_around(const std::vector<Vec3>& centres, double voxel) {
   return grid;
 }
 
+// What several explorers of a pile have in common.
+struct ExploredPile {
+  RayWorld world;
+  PileQueries queries;
+  explicit ExploredPile(const SettledMission& settled)
+      : world(build_scene(settled.mission.scenario, settled.mission.assets, settled.state)),
+        queries(settled.state, settled.mission.assets.finest_meshes()) {}
+};
+
 class Explorer {
  public:
-  Explorer(const SharedPile& settled, const DoubleArray& cells, double voxel, double radius, int size, double fov_deg,
-           double max_range, int threads)
-      : world_(build_scene(settled->mission.scenario, settled->mission.assets, settled->state)),
-        queries_(settled->state, settled->mission.assets.finest_meshes()), rays_(pinhole(size, size, fov_deg), 2 * max_range),
-        pool_(threads), radius_(radius), max_range_(max_range), seen_(make_seen(to_points(cells, "cells"), voxel)) {}
+  Explorer(std::shared_ptr<ExploredPile> pile, const DoubleArray& cells, double voxel, double radius, int size,
+           double fov_deg, double max_range, int threads)
+      : pile_(std::move(pile)), world_(pile_->world), queries_(pile_->queries),
+        rays_(pinhole(size, size, fov_deg), 2 * max_range), pool_(threads), radius_(radius), max_range_(max_range),
+        seen_(make_seen(to_points(cells, "cells"), voxel)) {}
 
-  void forget() { seen_.forget(); }
+  void forget() { seen_.forget(), clearance_ = 0; }
+  // shift: of the principal point; unit: pixel
+  void set_camera(double fov_deg, double shift_x, double shift_y) {
+    const int size = rays_.intrinsics().width;
+    rays_ = DepthRays(pinhole(size, size, fov_deg, shift_x, shift_y), 2 * max_range_);
+  }
   std::size_t seen() const { return seen_.count(); }
   std::size_t count() const { return seen_.wanted(); }
 
@@ -99,8 +113,9 @@ class Explorer {
       }
   }
 
-  LidarWorld world_;
-  PileQueries queries_;
+  std::shared_ptr<ExploredPile> pile_;
+  const RayWorld& world_;
+  const PileQueries& queries_;
   DepthRays rays_;
   ThreadPool pool_;
   double radius_, max_range_;
@@ -112,11 +127,15 @@ class Explorer {
 }  // namespace
 
 void add_explorer(py::module_& module) {
+  py::class_<ExploredPile, std::shared_ptr<ExploredPile>>(module, "_ExploredPile").def(py::init([](const SharedPile& s) {
+    return std::make_shared<ExploredPile>(*s);
+  }));
   py::class_<Explorer>(module, "_Explorer")
-      .def(py::init([](const SharedPile& s, const DoubleArray& cells, double voxel, double radius, int size,
+      .def(py::init([](const std::shared_ptr<ExploredPile>& pile, const DoubleArray& cells, double voxel, double radius, int size,
                        double fov_deg, double max_range, int threads) {
-        return std::make_unique<Explorer>(s, cells, voxel, radius, size, fov_deg, max_range, threads);
+        return std::make_unique<Explorer>(pile, cells, voxel, radius, size, fov_deg, max_range, threads);
       }))
+      .def("set_camera", &Explorer::set_camera, py::arg("fov_deg"), py::arg("shift_x"), py::arg("shift_y"))
       .def("forget", &Explorer::forget)
       .def("look", &Explorer::look, py::arg("pose"))
       .def("move", &Explorer::move, py::arg("from_"), py::arg("way"))

@@ -58,8 +58,8 @@ PYBIND11_MODULE(_core, module) {
   rubble::python::add_pile(module);
   rubble::python::add_sensors(module);
   rubble::python::add_geometry(module);
+  rubble::python::add_random(module);
   rubble::python::add_explorer(module);
-  rubble::python::add_robots(module);
   rubble::python::add_sessions(module);
   rubble::python::add_recordings(module);
 }

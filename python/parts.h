@@ -9,6 +9,7 @@
 #include "app/mission/resolved_mission.h"
 #include "kernel/model/pile_state.h"
 #include "render/scene/frame.h"
+#include "render/scene/scene.h"
 
 namespace rubble::python {
 
@@ -26,13 +27,16 @@ RunOptions quiet(int threads);
 void add_errors(pybind11::module_& module);
 void add_pile(pybind11::module_& module);
 void add_sensors(pybind11::module_& module);
+void add_range_scans(pybind11::module_& module);
 void add_geometry(pybind11::module_& module);
+void add_random(pybind11::module_& module);
 void add_explorer(pybind11::module_& module);
 
-// A flat camera, checked. Throws InputError.
-Intrinsics pinhole(int width, int height, double fov_deg);
+Scene scene_of(const SettledMission& settled);
+// A flat camera, checked. shift_x, shift_y: of its principal point from the middle, to the right and downwards, at most half
+// a side; unit: pixel. Throws InputError.
+Intrinsics pinhole(int width, int height, double fov_deg, double shift_x = 0, double shift_y = 0);
 pybind11::array_t<double> camera_matrix(const Intrinsics& k);  // K, 3 by 3
-void add_robots(pybind11::module_& module);
 void add_sessions(pybind11::module_& module);
 void add_recordings(pybind11::module_& module);
 

@@ -64,6 +64,37 @@ Pile open_pile(const std::string& folder, int threads, const std::vector<std::st
   return {settled, context.threads()};
 }
 
+// Whether two scenarios settle the same pile.
+bool settles_alike(const Scenario& base, const Scenario& changed) {
+  Scenario same = changed;
+  adopt_pile(same, base);
+  same.surroundings = base.surroundings, same.seed = base.seed;
+  return scenario_to_json(same) == scenario_to_json(changed);
+}
+
+// The same pile under other keys of its mission: light, air, cameras, sensors, robots.
+Pile vary(const Pile& pile, const std::vector<std::string>& overrides) {
+  const ResolvedMission& base = pile.settled->mission;
+  const auto load = [&base](const std::vector<std::string>& more) {
+    Provenance changed = base.provenance;
+    changed.overrides.insert(changed.overrides.end(), more.begin(), more.end());
+    return load_mission(changed).scenario;
+  };
+  const Scenario changed = load(overrides);
+  if (!settles_alike(base.scenario, changed)) {
+    for (const std::string& one : overrides)
+      if (!settles_alike(base.scenario, load({one})))
+        throw InputError({"", 0, one.substr(0, one.find('=')), "this key changes how the pile settled",
+                          "keys of light, air, cameras, sensors or robots", one, "settle the mission with this key anew"});
+    throw InputError({"", 0, "overrides", "these keys change how the pile settled",
+                      "keys of light, air, cameras, sensors or robots", "", "settle the mission with them anew"});
+  }
+  auto varied = std::make_shared<SettledMission>(*pile.settled);
+  varied->mission.scenario = changed;
+  varied->mission.provenance.overrides.insert(varied->mission.provenance.overrides.end(), overrides.begin(), overrides.end());
+  return {varied, pile.threads, pile.made};
+}
+
 py::array_t<double> poses_of(const Pile& pile) {
   const auto& pieces = pile.settled->state.pieces;
   py::array_t<double> out = make_array<double>({py::ssize_t(pieces.size()), 7});
@@ -179,7 +210,7 @@ py::tuple mesh_of(const Pile& pile) {
   const PileState& state = pile.settled->state;
   for (const PieceState& piece : state.pieces)
     if (piece.status != PieceStatus::lost) add(*meshes[std::size_t(piece.type)], piece.world_from_body, piece.scale);
-  for (const FineHeap& heap : make_fine_heaps(state.fines)) add(heap.mesh, world_from_host(state, heap.host), 1);
+  for (const FineHeap& heap : state.fines.heaps()) add(heap.mesh, world_from_host(state, heap.host), 1);
   const auto vertices = py::ssize_t(positions.size() / 3), faces = py::ssize_t(triangles.size() / 3);
   return py::make_tuple(take_vector(std::move(positions), {vertices, 3}), take_vector(std::move(triangles), {faces, 3}));
 }
@@ -207,6 +238,9 @@ void add_pile(py::module_& module) {
       .def("voids", &voids, py::arg("radius"), py::arg("voxel") = 0.05,
            "The voids that a ball of that radius has room in, the largest first.")
       .def("mesh", &mesh_of, "(vertices (n, 3) float32, triangles (m, 3) int32) of all pieces.")
+      .def("vary", &vary, py::arg("overrides"),
+           "The same pile under other keys of its mission (\"key=value\"): light, air, cameras, sensors, robots. Nothing "
+           "settles again.")
       .def_property_readonly("_shared", [](const Pile& p) { return p.settled; })
       .def_property_readonly("threads", [](const Pile& p) { return p.threads; });
   py::class_<SettledMission, SharedPile>(module, "_Settled");

@@ -1,4 +1,4 @@
-// What Python asks of robots and is told of them, for RobotWorld and Session. Internal to python/.
+// What Python asks of robots and is told of them. Internal to python/.
 #pragma once
 
 #include <vector>

@@ -1,16 +1,12 @@
-// Bundled robots in a settled pile, stepped from Python.
+#include "python/robot_commands.h"
+
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <optional>
+#include <cmath>
 
-#include "app/control/robot_control.h"
-#include "kernel/robot/bundled.h"
-#include "kernel/robot/gaits.h"
-#include "kernel/robot/robot_run.h"
-#include "kernel/world/world_robots.h"
-#include "python/parts.h"
-#include "python/robot_commands.h"
+#include "kernel/base/error.h"
+#include "kernel/robot/drive_commands.h"
 
 namespace rubble::python {
 namespace {
@@ -24,66 +20,6 @@ void expect_finite(const std::vector<double>& values, const char* key, const cha
          expected);
 }
 
-RobotModel make_model(const std::string& name) {
-  if (name == "snake") return make_snake();
-  if (name == "crawler") return make_crawler();
-  if (name == "rover") return make_rover();
-  if (name == "vine") return make_vine();
-  throw InputError({"", 0, "model", "unknown robot", "snake, crawler, rover or vine", "\"" + name + "\"", ""});
-}
-
-RobotRunOptions run_options(const Scenario& scenario, bool fixed_debris, int threads) {
-  RobotRunOptions options = robot_run_options(scenario, threads);
-  options.fixed_debris = fixed_debris;
-  options.control_hz = 1 / options.step;  // commands count from the next step on
-  options.track_hz = 0;
-  return options;
-}
-
-class RobotWorld {
- public:
-  RobotWorld(const SharedPile& settled, const std::string& model, const DoubleArray& pose, bool fixed_debris,
-             int threads)
-      : options_(run_options(settled->mission.scenario, fixed_debris, threads)),
-        model_(make_model(model)),
-        run_(make_laid_pile(settled->mission, settled->state), settled->state, options_) {
-    run_.add(model_, to_pose(pose, "pose"), [this](const RobotSense&) { return command_; });
-    run_.begin();
-  }
-
-  void drive(double linear, double angular, const std::vector<double>& flippers) {
-    command_ = make_twist_command(model_, linear, angular, flippers);
-  }
-  void grow(double speed, double left, double up) { command_ = make_growth_command(model_, speed, left, up); }
-  // The belts go on.
-  void set_joints(const std::vector<double>& targets) { command_.joints = make_joints_command(model_, targets).joints; }
-
-  void step(double seconds) {
-    const int steps = count_steps(seconds, options_.step);
-    if (refused_) throw *refused_;
-    const py::gil_scoped_release free;
-    try {
-      for (int i = 0; i < steps; ++i) run_.step();
-    } catch (const InputError& error) {
-      Diagnostic d = error.diagnostics().front();
-      d.key = "pose";
-      refused_.emplace(d);
-      throw *refused_;
-    }
-  }
-
-  py::dict state() const { return describe_state(model_, run_.world().robots().state(0), run_.world().time()); }
-  int joints() const { return int(model_.joints.size()); }
-  std::vector<std::string> link_names() const { return link_names_of(model_); }
-
- private:
-  RobotRunOptions options_;
-  RobotModel model_;
-  RobotRun run_;
-  RobotCommand command_;
-  std::optional<InputError> refused_;  // it has no room
-};
-
 }  // namespace
 
 RobotCommand make_twist_command(const RobotModel& model, double linear, double angular,
@@ -96,13 +32,13 @@ RobotCommand make_twist_command(const RobotModel& model, double linear, double a
   expect(flippers.empty() || flippers.size() == wanted, "flippers", "wrong number of angles",
          wanted ? std::to_string(wanted) + " or none" : "none");
   expect_finite(flippers, "flippers", "radians");
-  return drive_sides(model, {linear, angular}, flippers);
+  return drive_sides(model, linear, angular, flippers);
 }
 
 RobotCommand make_growth_command(const RobotModel& model, double speed, double left, double up) {
-  expect(model.tube.has_value(), "grow", "this robot does not grow", "vine");
+  expect(model.tube.has_value(), "grow", "this robot does not grow", "a robot with a tube");
   expect_finite({speed, left, up}, "grow", "a finite speed and finite curvatures");
-  return drive_vine(model, {speed, left, up});
+  return grow_tube(model, speed, left, up);
 }
 
 RobotCommand make_joints_command(const RobotModel& model, const std::vector<double>& targets) {
@@ -144,22 +80,6 @@ std::vector<std::string> link_names_of(const RobotModel& model) {
 int count_steps(double seconds, double step) {
   expect(seconds > 0 && seconds <= 60, "seconds", "out of range", "more than 0, at most 60");
   return std::max(1, int(seconds / step + 0.5));
-}
-
-void add_robots(py::module_& module) {
-  py::class_<RobotWorld>(module, "_RobotWorld")
-      .def(py::init([](const SharedPile& s, const std::string& model, const DoubleArray& pose,
-                       bool fixed_debris, int threads) {
-        return std::make_unique<RobotWorld>(s, model, pose, fixed_debris, threads);
-      }))
-      .def("drive", &RobotWorld::drive, py::arg("linear"), py::arg("angular") = 0.0,
-           py::arg("flippers") = std::vector<double>())
-      .def("grow", &RobotWorld::grow, py::arg("speed"), py::arg("left") = 0.0, py::arg("up") = 0.0)
-      .def("set_joints", &RobotWorld::set_joints, py::arg("targets"))
-      .def("step", &RobotWorld::step, py::arg("seconds") = 1.0 / 60)
-      .def("state", &RobotWorld::state)
-      .def_property_readonly("joint_count", &RobotWorld::joints)
-      .def_property_readonly("link_names", &RobotWorld::link_names);
 }
 
 }  // namespace rubble::python

@@ -2,7 +2,16 @@
 
 Apart from the package, which loads Rubble's libraries: those who make other environments do not wait for them.
 """
+import functools
+
 STEPS = {"CrawlerNav": 600, "SnakeExplore": 600, "VoidExplore": 500}
+
+
+def make_batch(name, num_envs, max_episode_steps, batch_threads=None, **options):
+    """What gymnasium.make_vec() gives without another vectorization_mode: a rubble.envs.Batch on `batch_threads` threads."""
+    from rubble import envs
+
+    return envs.Batch(lambda: getattr(envs, name)(**{**options, "max_steps": max_episode_steps}), num_envs, batch_threads)
 
 
 def register():
@@ -11,4 +20,5 @@ def register():
     for name, steps in STEPS.items():
         if f"rubble/{name}-v0" not in registry:
             # gymnasium's own limit ends episodes, so that max_episode_steps of make() holds.
-            add(id=f"rubble/{name}-v0", entry_point=f"rubble.envs:{name}", max_episode_steps=steps, kwargs={"max_steps": None})
+            add(id=f"rubble/{name}-v0", entry_point=f"rubble.envs:{name}", max_episode_steps=steps, kwargs={"max_steps": None},
+                vector_entry_point=functools.partial(make_batch, name))

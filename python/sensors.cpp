@@ -1,40 +1,45 @@
-// Sensors over a pile that rests: frames of the renderer, depth by exact rays, scans of LiDARs.
+// Sensors over a pile that rests: frames of the renderer, depth by exact rays.
 #include <pybind11/stl.h>
 
-#include <algorithm>
+#include <array>
+#include <cmath>
 
-#include "app/pipeline/stages.h"
 #include "app/scene/build_scene.h"
+#include "app/sensors/camera_renderers.h"
 #include "kernel/base/parallel.h"
 #include "python/arrays.h"
 #include "python/parts.h"
 #include "render/gl/gl_context.h"
-#include "render/lidar/depth_rays.h"
-#include "render/lidar/lidar.h"
+#include "render/rays/depth_rays.h"
 #include "render/renderer.h"
 
 namespace rubble::python {
 
-Intrinsics pinhole(int width, int height, double fov_deg) {
+Intrinsics pinhole(int width, int height, double fov_deg, double shift_x, double shift_y) {
   if (width < 16 || height < 16 || width > 8192 || height > 8192)
     throw InputError({"", 0, "width", "out of range", "an image of 16 to 8192 pixels a side",
                       std::to_string(width) + " x " + std::to_string(height), ""});
   if (!(fov_deg >= 1 && fov_deg <= 170))
     throw InputError({"", 0, "fov_deg", "out of range", "1 to 170", std::to_string(fov_deg), ""});
+  if (!(std::abs(shift_x) <= 0.5 * width && std::abs(shift_y) <= 0.5 * height))
+    throw InputError({"", 0, "shift", "out of range", "at most half a side of the image",
+                      std::to_string(shift_x) + ", " + std::to_string(shift_y), ""});
   CameraScenario camera;
   camera.width = width, camera.height = height, camera.fov_deg = fov_deg;
-  return camera.intrinsics();
+  Intrinsics k = camera.intrinsics();
+  k.cx += shift_x, k.cy += shift_y;
+  return k;
 }
 
 py::array_t<double> camera_matrix(const Intrinsics& k) {
   return take_vector<double>({k.fx, 0, k.cx, 0, k.fy, k.cy, 0, 0, 1}, {3, 3});
 }
 
-namespace {
-
 Scene scene_of(const SettledMission& settled) {
   return build_scene(settled.mission.scenario, settled.mission.assets, settled.state);
 }
+
+namespace {
 
 // Colour and depth, as `rubble run` draws them.
 class FrameRenderer {
@@ -42,11 +47,12 @@ class FrameRenderer {
   FrameRenderer(SharedPile settled, int threads)
       : settled_(std::move(settled)),
         gl_({-1, threads}),
-        renderer_(prepare_renderer(scene_of(*settled_), settled_->mission.scenario, gl_, threads, {})) {}
+        renderer_(prepare_renderer(scene_of(*settled_), settled_->mission.scenario.cameras.front().camera.colour, gl_, {threads, {}, {}})) {}
 
-  py::dict render(const DoubleArray& world_from_camera, int width, int height, double fov_deg, int number) {
+  py::dict render(const DoubleArray& world_from_camera, int width, int height, double fov_deg, int number,
+                  const std::array<double, 2>& shift) {
     const Pose pose = to_pose(world_from_camera, "pose");
-    const Intrinsics k = pinhole(width, height, fov_deg);
+    const Intrinsics k = pinhole(width, height, fov_deg, shift[0], shift[1]);
     Frame frame = renderer_->render(pose, k, number, settled_->mission.scenario.start_ns);
     py::dict out;
     out["rgb"] = take_vector(std::move(frame.rgb), {height, width, 3});
@@ -81,62 +87,20 @@ class DepthCamera {
   py::array_t<double> matrix() const { return camera_matrix(rays_.intrinsics()); }
 
  private:
-  LidarWorld world_;
+  RayWorld world_;
   DepthRays rays_;
   ThreadPool pool_;
-};
-
-LidarModel model_named(const std::string& name) {
-  const char* const names[] = {"vlp16", "os0", "os1", "os2", "mid360", "utm30lx"};
-  for (int i = 0; i < 6; ++i)
-    if (name == names[i]) return LidarModel(i);
-  throw InputError({"", 0, "model", "unknown LiDAR", "vlp16, os0, os1, os2, mid360 or utm30lx",
-                    "\"" + name + "\"", ""});
-}
-
-class PyLidar {
- public:
-  PyLidar(SharedPile settled, const std::string& model, bool noise, std::uint64_t seed, int threads)
-      : settled_(std::move(settled)), world_(std::make_shared<LidarWorld>(scene_of(*settled_))), seed_(seed),
-        threads_(threads) {
-    LidarScenario lidar;
-    lidar.model = model_named(model), lidar.noise = noise;
-    spec_ = lidar.spec();
-  }
-
-  // The sensor stands still.
-  py::array scan(const DoubleArray& world_from_lidar, int number) const {
-    const Pose pose = to_pose(world_from_lidar, "pose");
-    const Scenario& s = settled_->mission.scenario;
-    LidarScan scan;
-    {
-      const py::gil_scoped_release free;
-      Lidar lidar(spec_, world_, {[pose](std::int64_t) { return pose; }, s.start_ns}, Medium(s.air, s.seed), seed_,
-                  threads_);
-      scan = lidar.take(number);
-    }
-    const auto count = py::ssize_t(scan.points.size());
-    return take_vector(std::move(scan.points), {count});
-  }
-
- private:
-  SharedPile settled_;
-  std::shared_ptr<LidarWorld> world_;
-  LidarSpec spec_;
-  std::uint64_t seed_;
-  int threads_;
 };
 
 }  // namespace
 
 void add_sensors(py::module_& module) {
-  PYBIND11_NUMPY_DTYPE(LidarPoint, x, y, z, intensity, time, ring, column);
   py::class_<FrameRenderer>(module, "_Renderer")
       .def(py::init([](const SharedPile& s, int threads) {
         return std::make_unique<FrameRenderer>(s, threads);
       }))
       .def("render", &FrameRenderer::render, py::arg("pose"), py::arg("width") = 640, py::arg("height") = 480,
-           py::arg("fov_deg") = 90.0, py::arg("number") = 0);
+           py::arg("fov_deg") = 90.0, py::arg("number") = 0, py::arg("shift") = std::array<double, 2>{0, 0});
   py::class_<DepthCamera>(module, "_DepthCamera")
       .def(py::init([](const SharedPile& s, int width, int height, double fov_deg,
                        double max_range, int threads) {
@@ -144,12 +108,7 @@ void add_sensors(py::module_& module) {
       }))
       .def("depth", &DepthCamera::depth, py::arg("pose"))
       .def_property_readonly("K", &DepthCamera::matrix);
-  py::class_<PyLidar>(module, "_Lidar")
-      .def(py::init([](const SharedPile& s, const std::string& model, bool noise,
-                       const py::object& seed, int threads) {
-        return std::make_unique<PyLidar>(s, model, noise, to_seed(seed), threads);
-      }))
-      .def("scan", &PyLidar::scan, py::arg("pose"), py::arg("number") = 0);
+  add_range_scans(module);
 }
 
 }  // namespace rubble::python

@@ -4,16 +4,21 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "app/control/robot_control.h"
 #include "kernel/world/world_robots.h"
 #include "python/parts.h"
 #include "python/robot_commands.h"
+#include "scripting/robots/robot_kind.h"
 
 namespace rubble::python {
 namespace {
+
+constexpr double kMostControlHz = 240;  // a command each step
 
 py::array_t<double> to_array(std::vector<double> values) {
   const auto count = py::ssize_t(values.size());
@@ -27,13 +32,53 @@ class MissionSession {
   }
 
  public:
-  MissionSession(SharedPile settled, bool depth, int threads)
-      : settled_(std::move(settled)), context_(quiet(threads)), session_(with_lines([&] { return make(depth); })) {
+  // The robots of the mission.
+  MissionSession(SharedPile settled, bool observed, bool depth, int threads)
+      : settled_(std::move(settled)), context_(quiet(threads)), session_(with_lines([&] { return make(observed, depth); })) {
     with_lines([&] {
       const py::gil_scoped_release free;
       session_->start();
       return true;
     });
+  }
+
+  // One bundled robot instead of them, whose motors are off until the first command. Its first link is at `base`.
+  // friction: instead of the model's.
+  MissionSession(SharedPile settled, const std::string& kind, const Pose& base, bool fixed_debris, int threads,
+                 std::optional<double> friction)
+      : settled_(std::move(settled)), alone_(settled_->mission), context_(quiet(threads)) {
+    const Scenario& whole = settled_->mission.scenario;
+    Scenario& bare = alone_->scenario;
+    bare = Scenario();
+    bare.seed = whole.seed, bare.start_ns = whole.start_ns, bare.settle = whole.settle;
+    bare.robots = {make_robot_item(kind)};
+    if (friction && !(*friction >= 0 && *friction <= 2))
+      throw InputError({"", 0, "friction", "out of range", "0 to 2", std::to_string(*friction), ""});
+    bare.robots[0].friction = friction;
+    bare.robot_run.control_hz = kMostControlHz;  // commands count from the next step on
+    if (fixed_debris) bare.robot_run.debris = DebrisMotion::fixed;
+    MissionRobot robot;
+    robot.model = kind_of(bare.robots[0]).make(bare.robots[0]), robot.placed_from_base = base;
+    SessionOptions options;
+    options.restarts = true;
+    session_ = std::make_unique<Session>(*alone_, settled_->state, std::vector<MissionRobot>{std::move(robot)}, context_,
+                                         options);
+    session_->set_controller(0, [](const RobotSense&) { return RobotCommand(); });
+    session_->start();
+  }
+
+  // Back to time 0, with the bits of a new session. poses: of first links, by robot; others stand where the mission, or
+  // the constructor, puts them.
+  void reset(const std::map<std::string, DoubleArray>& poses) {
+    for (std::size_t i = 0; i < robots().size(); ++i) session_->place(i, std::nullopt);
+    for (const auto& [robot, pose] : poses) session_->place(find(robot), to_pose(pose, "pose"));
+    last_.clear(), refused_.reset();
+    const auto start = [&] {
+      const py::gil_scoped_release free;
+      session_->start();
+      return true;
+    };
+    alone_ ? start() : with_lines(start);
   }
 
   void drive(const std::string& robot, double linear, double angular, const std::vector<double>& flippers) {
@@ -43,17 +88,30 @@ class MissionSession {
     command(robot, [&](const RobotModel& model) { return make_growth_command(model, speed, left, up); });
   }
   void set_joints(const std::string& robot, const std::vector<double>& targets) {
-    command(robot, [&](const RobotModel& model) { return make_joints_command(model, targets); });
+    command(robot, [&](const RobotModel& model) { return make_joints_command(model, targets); }, true);
   }
-  void follow_mission(const std::string& robot) { session_->command(find(robot), std::nullopt); }
+  void follow_mission(const std::string& robot) {
+    last_.erase(find(robot));
+    session_->command(find(robot), std::nullopt);
+  }
 
   void step(double seconds) {
     const int steps = count_steps(seconds, session_->step_time());
-    with_lines([&] {
+    if (refused_) throw *refused_;
+    const auto go = [&] {
       const py::gil_scoped_release free;
       for (int i = 0; i < steps; ++i) session_->step();
       return true;
-    });
+    };
+    if (!alone_) return void(with_lines(go));
+    try {
+      go();
+    } catch (const InputError& error) {
+      Diagnostic d = error.diagnostics().front();
+      d.key = "pose";
+      refused_.emplace(d);
+      throw *refused_;
+    }
   }
 
   py::list observe() {
@@ -83,15 +141,15 @@ class MissionSession {
   }
 
  private:
-  std::unique_ptr<Session> make(bool depth) {
+  std::unique_ptr<Session> make(bool observed, bool depth) {
     if (scenario().robots.empty())
       throw InputError({"", 0, "robots", "the mission has no robots", "a mission with `robots`", "none", ""});
     SessionOptions options;
-    options.observed = true, options.depth = depth;
+    options.observed = observed, options.depth = depth, options.restarts = true;
     return std::make_unique<Session>(settled_->mission, settled_->state, make_robots(settled_->mission, context_), context_,
                                      options);
   }
-  const Scenario& scenario() const { return settled_->mission.scenario; }
+  const Scenario& scenario() const { return alone_ ? alone_->scenario : settled_->mission.scenario; }
 
   std::size_t find(const std::string& robot) const {
     const std::vector<std::string>& names = session_->names();
@@ -101,10 +159,14 @@ class MissionSession {
     for (const std::string& name : names) all += (all.empty() ? "one of " : ", ") + name;
     throw InputError({"", 0, "robot", "no robot has this name", all, "\"" + robot + "\"", ""});
   }
+  // belts_go_on: those of its last command.
   template <typename Make>
-  void command(const std::string& robot, const Make& make_command) {
+  void command(const std::string& robot, const Make& make_command, bool belts_go_on = false) {
     const std::size_t i = find(robot);
-    session_->command(i, make_command(session_->robots()[i].model));
+    RobotCommand asked = make_command(session_->robots()[i].model);
+    if (const auto last = last_.find(i); belts_go_on && last != last_.end())
+      asked.belts = last->second.belts, asked.curve_left = last->second.curve_left, asked.curve_up = last->second.curve_up;
+    session_->command(i, last_[i] = std::move(asked));
   }
 
   static py::dict named(const char* kind, const std::string& sensor) {
@@ -125,27 +187,24 @@ class MissionSession {
     return out;
   }
   py::dict describe(const ImuSample& s) const {
-    py::dict out = named("imu", all_imus(scenario())[std::size_t(s.sensor)].name);
+    py::dict out = named("imu", scenario().imus[std::size_t(s.sensor)].name);
     out["angular_velocity"] = from_vector(s.angular_velocity);
     out["linear_acceleration"] = from_vector(s.linear_acceleration);
     return out;
   }
-  py::dict describe(LidarScan& s) const {
-    py::dict out = named("lidar", scenario().lidars[std::size_t(s.sensor)].name);
-    const auto count = py::ssize_t(s.points.size());
-    out["points"] = take_vector(std::move(s.points), {count});
-    out["pose"] = from_pose(s.world_from_lidar.front());
-    return out;
-  }
   py::dict describe(const Reading& s) const {
     const SensorItem& sensor = scenario().sensors[std::size_t(s.sensor)];
-    py::dict out = named("reading", sensor.name);
+    py::dict out = named(sensor.figures->sample_name().c_str(), sensor.name);
+    if (s.scan) {
+      out["points"] = take_vector(std::vector<ScanPoint>(s.scan->points), {py::ssize_t(s.scan->points.size())});
+      out["pose"] = from_pose(s.scan->world_from_sensor.front());
+    }
     const std::vector<ReadingColumn> columns = sensor.figures->columns();
     for (std::size_t i = 0; i < columns.size(); ++i) out[columns[i].name.c_str()] = s.values[i];
     return out;
   }
   py::dict describe(Frame& s) const {
-    py::dict out = named("camera", all_cameras(scenario())[std::size_t(s.sensor)].name);
+    py::dict out = named("camera", scenario().cameras[std::size_t(s.sensor)].name);
     const Intrinsics& k = s.intrinsics;
     out["K"] = camera_matrix(k), out["pose"] = from_pose(s.world_from_camera);
     if (!s.depth.empty()) out["depth"] = take_vector(std::move(s.depth), {k.height, k.width});
@@ -154,17 +213,25 @@ class MissionSession {
   }
 
   SharedPile settled_;
+  std::optional<ResolvedMission> alone_;  // of a robot that the mission does not have
   RunContext context_;
   std::unique_ptr<Session> session_;
+  std::map<std::size_t, RobotCommand> last_;  // by robot
+  std::optional<InputError> refused_;         // that robot has no room
 };
 
 }  // namespace
 
 void add_sessions(py::module_& module) {
   py::class_<MissionSession>(module, "_Session")
-      .def(py::init([](const SharedPile& settled, bool depth, int threads) {
-             return std::make_unique<MissionSession>(settled, depth, threads);
+      .def(py::init([](const SharedPile& settled, bool observed, bool depth, int threads) {
+             return std::make_unique<MissionSession>(settled, observed, depth, threads);
            }))
+      .def(py::init([](const SharedPile& settled, const std::string& robot, const DoubleArray& pose, bool fixed_debris,
+                       int threads, std::optional<double> friction) {
+        return std::make_unique<MissionSession>(settled, robot, to_pose(pose, "pose"), fixed_debris, threads, friction);
+      }))
+      .def("reset", &MissionSession::reset)
       .def("drive", &MissionSession::drive)
       .def("grow", &MissionSession::grow)
       .def("set_joints", &MissionSession::set_joints)

@@ -15,8 +15,8 @@ std::string first_word(const std::string& text) { return text.substr(0, text.fin
 
 // The first words of the keys of a mission.
 std::vector<std::string> mission_words() {
-  Scenario scenario;
-  const Schema schema = make_scenario_schema(scenario);
+  MissionForm form;
+  const Schema schema = make_scenario_schema(form);
   std::vector<std::string> words;
   for (const Key& key : schema.keys()) words.push_back(first_word(key.path));
   for (const Alias& alias : schema.aliases()) words.push_back(alias.name);
@@ -35,14 +35,14 @@ bool is_for_script(const std::string& override_text, const std::vector<std::stri
 // The seed that rubble.random uses while the script runs: before its table is known, only a number
 // that stands in it literally can be.
 std::uint64_t seed_for_script(const SourceMap& lines, const MissionOptions& options) {
-  Scenario scenario;
+  MissionForm form;
   std::vector<Diagnostic> ignored;  // reported when the scenario itself is read
   for (const char* key : {"seed", "randomseed"})
     if (const auto literal = lines.literal_of(key); literal && *literal >= 0)
-      scenario.seed = std::uint64_t(*literal);
-  const Schema schema = make_scenario_schema(scenario);
+      form.rest.seed = std::uint64_t(*literal);
+  const Schema schema = make_scenario_schema(form);
   for (const std::string& text : options.overrides) apply_override(schema, text, ignored);
-  return options.seed.value_or(scenario.seed);
+  return options.seed.value_or(form.rest.seed);
 }
 
 void require_table(const Value& value, const SourceFile& script, const SourceMap& lines) {
@@ -51,9 +51,9 @@ void require_table(const Value& value, const SourceFile& script, const SourceMap
                     "return rubble.mission { ... }", describe(value), ""});
 }
 
-void check_seed(const LuaSandbox& sandbox, std::uint64_t used, const Scenario& scenario,
+void check_seed(const LuaSandbox& sandbox, std::uint64_t used, std::uint64_t stated,
                 std::vector<Diagnostic>& mistakes) {
-  if (!sandbox.used_random() || scenario.seed == used) return;
+  if (!sandbox.used_random() || stated == used) return;
   mistakes.push_back({"", 0, "seed", "random numbers were drawn before the seed was known",
                       "a plain number in the mission's table", "", "or give it with --seed"});
 }
@@ -101,8 +101,8 @@ Mission load_mission_text(const std::string& text, const std::string& path,
   mission.parameters = sandbox.parameters();
   require_table(table, mission.script, lines);
 
-  Scenario& scenario = mission.scenario;
-  const Schema schema = make_scenario_schema(scenario);
+  MissionForm form;
+  const Schema schema = make_scenario_schema(form);
   std::vector<Diagnostic> mistakes = sandbox.mistakes();
   read_table(schema, table, mistakes);
   const std::vector<std::string> words = mission_words();
@@ -117,12 +117,13 @@ Mission load_mission_text(const std::string& text, const std::string& path,
       mistakes.push_back(std::move(d));
     }
   }
-  if (options.seed) scenario.seed = *options.seed;
-  check_seed(sandbox, seed, scenario, mistakes);
+  if (options.seed) form.rest.seed = *options.seed;
+  check_seed(sandbox, seed, form.rest.seed, mistakes);
   add_duplicates(lines, mistakes);
-  add_unrelated(find_mistakes(scenario), mistakes);
+  add_unrelated(find_mistakes(form), mistakes);
   locate(mistakes, path, lines);
   throw_if_any(std::move(mistakes));
+  mission.scenario = form.normalized();
   return mission;
 }
 
@@ -166,12 +167,14 @@ void check_materials(const Mission& mission, const std::vector<std::string>& nam
 std::vector<std::string> find_suspicious(const Mission& mission) {
   constexpr double kLargestInRadians = 3.2;  // pi; unit: rad
   std::vector<std::string> sentences;
-  const double fov = mission.scenario.camera.fov_deg;
-  if (fov <= kLargestInRadians)
-    sentences.push_back(Diagnostic{mission.script.path, mission.lines.line_of("camera.fov_deg"),
-                                   "camera.fov_deg", format_number(fov) + " degrees is very narrow",
-                                   "", "", "is it in radians?"}
-                            .text());
+  for (const MountedCamera& camera : mission.scenario.cameras) {
+    const std::string key = camera.key() + ".fov_deg";
+    if (camera.camera.fov_deg <= kLargestInRadians)
+      sentences.push_back(Diagnostic{mission.script.path, mission.lines.line_of(key), key,
+                                     format_number(camera.camera.fov_deg) + " degrees is very narrow", "", "",
+                                     "is it in radians?"}
+                              .text());
+  }
   return sentences;
 }
 

@@ -13,6 +13,7 @@ return rubble.mission {
   },
   outputs = {
     mcap = true, tum = true, euroc = true, colmap = true, frames = true,
+    kitti_odometry = true, nerfstudio = true, coco = true, webdataset = true, lerobot = true,
     meshes = { "ply", "obj", "glb", "sdf" },
     depth = "32FC1",
   },

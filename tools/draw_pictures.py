@@ -56,7 +56,7 @@ def steps():
         "{program} run scripts/lidar.lua --quiet --set fogdensity=0.1 --out {work}/lidar_smoke --force",
         "/usr/bin/python3 tools/draw_lidar.py {work}/lidar top docs/pictures/lidar.png --beside {work}/lidar_smoke",
     ]
-    yield "drive", ["tools/drive_sheet.sh {program}"]
+    yield "drive", ["tools/drive_sheet.sh {program}", "tools/inspect_sheet.sh {program}"]
     ways = "{work}/navigate/%s/ways/2.csv"
     yield "navigate", [
         "{program} bench navigate scripts/navigate.lua --seeds 2 --planner %s --force --out {work}/navigate/%s" % (p, p)

@@ -244,16 +244,16 @@ AssetLibrary load_assets(const Mission& mission, const std::vector<std::string>&
   add_boxes(mission, materials, library);
   try {
     add_terrain(mission.scenario.pile.terrain, {fs::path(mission.script.path).parent_path().string()}, library);
-    add_robot_files(mission.scenario, {fs::path(mission.script.path).parent_path().string()}, library);
+    add_robot_files(mission.scenario.robots, {fs::path(mission.script.path).parent_path().string()}, library);
     add_snapshot(mission.scenario.pile, {fs::path(mission.script.path).parent_path().string()}, library);
-    add_building(building_of(mission.scenario), mission.scenario.pile.terrain.position, library);
+    add_building(building_of(mission.scenario.pile, mission.scenario.seed), mission.scenario.pile.terrain.position, library);
   } catch (const InputError& error) {
     std::vector<Diagnostic> mistakes = error.diagnostics();
     locate(mistakes, mission.script.path, mission.lines);
     throw InputError(std::move(mistakes));
   }
   load(true);  // made of types, so after all of them
-  library.mix = make_mix(mission.scenario, all, library);
+  library.mix = make_mix(mission.scenario.pile, all, library);
   for (std::string& warning : find_suspicious(mission)) library.warnings.push_back(std::move(warning));
   library.importer.reset();
   return library;

@@ -28,7 +28,7 @@ struct AssetLibrary {
   std::string snapshot_file;                             // its path
   std::vector<std::string> robot_files;                  // their paths, one per robot; "": a bundled robot
   int building_first_type = 0;                           // of the building's pieces, if there is one
-  std::vector<int> building_counts;                      // of pieces of that type and of those after it
+  std::shared_ptr<const BuildingStructures> structures;  // of the building; null: there is none
   std::vector<CutFrom> building_cuts;                    // by piece of the building, in the pile's order
   // What reads the meshes; let go when all are loaded.
   std::shared_ptr<MeshImporter> importer = std::make_shared<MeshImporter>();
@@ -54,7 +54,7 @@ AssetLibrary load_assets(const Provenance& provenance, const std::vector<std::st
 
 // The URDF files of a mission's robots, looked for in these folders: their contents and paths go into the library, and
 // their folders into library.folders. Throws InputError for one that is missing or no URDF.
-void add_robot_files(const Scenario& scenario, const std::vector<std::string>& folders, AssetLibrary& library);
+void add_robot_files(const std::vector<RobotItem>& robots, const std::vector<std::string>& folders, AssetLibrary& library);
 // The same of a provenance. Throws InputError, too, where one has another content than the provenance says. That of an
 // older program does not say.
 void recall_robots(const Provenance& provenance, const std::vector<std::string>& folders, AssetLibrary& library);

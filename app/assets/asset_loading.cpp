@@ -288,10 +288,10 @@ void add_snapshot(const PileScenario& pile, const std::vector<std::string>& fold
   library.folders.push_back(std::filesystem::path(library.snapshot_file).parent_path().string());
 }
 
-void add_robot_files(const Scenario& scenario, const std::vector<std::string>& folders,
+void add_robot_files(const std::vector<RobotItem>& robots, const std::vector<std::string>& folders,
                      AssetLibrary& library) {
-  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
-    const RobotItem& robot = scenario.robots[i];
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const RobotItem& robot = robots[i];
     library.robot_files.emplace_back();
     if (robot.urdf.empty()) continue;
     const std::string path = find_named_file(robot.urdf, folders, "robots[" + std::to_string(i + 1) + "].urdf", "a URDF file");
@@ -301,12 +301,12 @@ void add_robot_files(const Scenario& scenario, const std::vector<std::string>& f
   }
 }
 
-std::vector<MixEntry> make_mix(const Scenario& scenario, const std::vector<FoundAsset>& all,
+std::vector<MixEntry> make_mix(const PileScenario& pile, const std::vector<FoundAsset>& all,
                                const AssetLibrary& library) {
   std::map<std::string, const Asset*> by_name;
   for (const FoundAsset& found : all) by_name[found.asset->name] = found.asset;
   std::vector<MixEntry> mix;
-  for (const MixItem& item : scenario.pile.mix) {
+  for (const MixItem& item : pile.mix) {
     const Asset& asset = *by_name.at(item.asset);
     const auto scale = item.scale.value_or(asset.scale);
     const bool own = !item.scale && item.spread.kind == Spread::uniform;
@@ -321,9 +321,9 @@ std::vector<MixEntry> make_mix(const Scenario& scenario, const std::vector<Found
       mix.back().weight = item.weight * m.weight / sum;
     }
   }
-  if (!scenario.pile.mix.empty()) return mix;
+  if (!pile.mix.empty()) return mix;
   for (const FoundAsset& found : all)
-    if (found.asset->weight > 0 && scenario.pile.layers > 0)
+    if (found.asset->weight > 0 && pile.layers > 0)
       mix.push_back({library.find(found.asset->name), found.asset->weight, found.asset->scale[0],
                      found.asset->scale[1], found.asset->spread});
   return mix;

@@ -24,7 +24,7 @@ void add_terrain(const TerrainScenario& spec, const std::vector<std::string>& fo
                  AssetLibrary& library);
 
 // What layers are drawn from: the mission's mix, or every asset by its own weight.
-std::vector<MixEntry> make_mix(const Scenario& scenario, const std::vector<FoundAsset>& all,
+std::vector<MixEntry> make_mix(const PileScenario& pile, const std::vector<FoundAsset>& all,
                                const AssetLibrary& library);
 
 }  // namespace rubble

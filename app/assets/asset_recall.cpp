@@ -27,12 +27,12 @@ void remake_terrain(const AssetContent& wanted, const TerrainScenario& spec,
 }
 
 // A box that a provenance names, made again.
-void remake_box(const AssetContent& wanted, const Scenario& scenario,
+void remake_box(const AssetContent& wanted, const std::vector<PlacedItem>& placed,
                 const std::vector<Material>& materials, const std::string& file,
                 AssetLibrary& library) {
   Diagnostic lost{file, 0, "assets", "the box `" + wanted.name + "` cannot be made again", "", "",
                   ""};
-  for (const PlacedItem& item : scenario.pile.placed) {
+  for (const PlacedItem& item : placed) {
     if (!item.box || placed_box_name(item) != wanted.name) continue;
     add_box(item, materials, library);
     if (library.contents.back().sha256 == wanted.sha256) return;
@@ -47,7 +47,7 @@ void remake_box(const AssetContent& wanted, const Scenario& scenario,
 // The pieces of the building that a provenance names: all of them with the first.
 void remake_building(const AssetContent& wanted, const Scenario& scenario, const std::string& file,
                      AssetLibrary& library) {
-  if (!library.has(wanted.name)) add_building(building_of(scenario), scenario.pile.terrain.position, library);
+  if (!library.has(wanted.name)) add_building(building_of(scenario.pile, scenario.seed), scenario.pile.terrain.position, library);
   for (const AssetContent& made : library.contents) {
     if (made.name == wanted.name && made.sha256 == wanted.sha256) return;
   }
@@ -129,7 +129,7 @@ struct Search {
 };
 
 // As make_mix, from what a provenance says of its assets.
-std::vector<MixEntry> make_mix(const Scenario& scenario, const AssetLibrary& library) {
+std::vector<MixEntry> make_mix(const PileScenario& pile, const AssetLibrary& library) {
   AssetPack pack;
   for (const AssetContent& content : library.contents) {
     Asset asset;
@@ -141,7 +141,7 @@ std::vector<MixEntry> make_mix(const Scenario& scenario, const AssetLibrary& lib
   }
   std::vector<FoundAsset> all;
   for (const Asset& asset : pack.assets) all.push_back({&pack, &asset});
-  return make_mix(scenario, all, library);
+  return make_mix(pile, all, library);
 }
 
 }  // namespace
@@ -161,7 +161,7 @@ AssetLibrary load_assets(const Provenance& provenance, const std::vector<std::st
   const Scenario scenario = stated_scenario(pile);
   for (const AssetContent& wanted : pile.assets) {
     if (wanted.pack == kMadeToMeasure)
-      remake_box(wanted, scenario, materials, provenance.script.path, library);
+      remake_box(wanted, scenario.pile.placed, materials, provenance.script.path, library);
     else if (wanted.pack == kBuildingPack)
       remake_building(wanted, scenario, provenance.script.path, library);
     else if (wanted.pack == kTerrainPack)
@@ -170,7 +170,7 @@ AssetLibrary load_assets(const Provenance& provenance, const std::vector<std::st
       search.find(wanted, provenance.script.path, library);
   }
   if (!search.missing.empty()) throw InputError(std::move(search.missing));
-  library.mix = make_mix(scenario, library);
+  library.mix = make_mix(scenario.pile, library);
   library.importer.reset();
   return library;
 }
@@ -186,7 +186,7 @@ void recall_snapshot(const Provenance& provenance, const std::vector<std::string
 }
 
 void recall_robots(const Provenance& provenance, const std::vector<std::string>& folders, AssetLibrary& library) {
-  add_robot_files(stated_scenario(provenance), folders, library);
+  add_robot_files(stated_scenario(provenance).robots, folders, library);
   for (std::size_t i = 0; i < provenance.robots.size(); ++i) {
     const RobotContent& wanted = provenance.robots[i];
     const std::string found = i < library.robots.size() ? library.robots[i].sha256 : "no such robot";

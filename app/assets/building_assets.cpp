@@ -6,7 +6,7 @@
 #include "app/assets/rebar_stubs.h"
 #include "kernel/base/hash.h"
 #include "kernel/geometry/hull.h"
-#include "kernel/settling/building_collapse.h"
+#include "kernel/structure/building.h"
 #include "kernel/structure/buildings/site.h"
 
 namespace rubble {
@@ -102,24 +102,22 @@ std::string hash_piece(const PieceType& type, const TriangleMesh& mesh) {
 
 }  // namespace
 
-BuildingSpec building_of(const Scenario& scenario) {
-  BuildingSpec building = scenario.pile.building;
-  building.seed = scenario.seed;
+BuildingSpec building_of(const PileScenario& pile, std::uint64_t seed) {
+  BuildingSpec building = pile.building;
+  building.seed = seed;
   if (building.planned()) building.storeys = int(building.plan.heights.size());
   return building;
 }
 
 void add_building(const BuildingSpec& building, const Vec3& terrain_position, AssetLibrary& library) {
   if (!building.given()) return;
-  const Structure made = make_damaged_building(building);
+  library.structures = std::make_shared<const BuildingStructures>(build_structures(building));
+  const Structure& made = library.structures->damaged;
   for (const int type : library.terrain()) check_site(made, *library.types[std::size_t(type)].surface, terrain_position);
   library.building_first_type = int(library.types.size());
   const std::vector<PieceType>& types = made.types;
-  library.building_counts.assign(types.size(), 0);
-  for (const StructurePiece& piece : made.pieces) {
-    ++library.building_counts[std::size_t(piece.type)];
+  for (const StructurePiece& piece : made.pieces)
     library.building_cuts.push_back(find_cut(made.members[std::size_t(piece.member)], piece));
-  }
   for (std::size_t i = 0; i < types.size(); ++i) {
     auto mesh = std::make_shared<SceneMesh>();
     mesh->levels = {PieceMesh(types[i], looks_of(made.type_materials[i])).take()};

@@ -9,8 +9,8 @@ namespace rubble {
 // The pack that a provenance names for them.
 inline constexpr const char* kBuildingPack = "building of the mission";
 
-// The scenario's building, cut by the scenario's seed.
-BuildingSpec building_of(const Scenario& scenario);
+// The building of a pile, cut by this seed.
+BuildingSpec building_of(const PileScenario& pile, std::uint64_t seed);
 
 // Adds every type of its pieces in their order, and notes the first; nothing where there is no building.
 // Throws InputError naming keys that contradict each other, and where the library's terrain, which lies at

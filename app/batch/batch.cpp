@@ -92,7 +92,7 @@ class Batch {
       estimate_ = std::max(estimate_, estimate_bytes(mission.scenario, assets, request_.pile_only));
       if (request_.of.preview) {
         const RunKind kind = request_.pile_only ? RunKind::settle : RunKind::run;
-        previews_.push_back(preview_run(kind, mission.scenario, mission.scenario, assets, folder_.path()));
+        previews_.push_back(preview_run(kind, mission.scenario, assets, folder_.path()));
       }
       if (variant == 0) describe_mission(mission, assets, options);
     }

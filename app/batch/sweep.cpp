@@ -67,8 +67,8 @@ Varied parse(const std::string& text) {
 }
 
 bool is_integer_key(const std::string& name) {
-  Scenario scenario;
-  const Schema schema = make_scenario_schema(scenario);
+  MissionForm form;
+  const Schema schema = make_scenario_schema(form);
   std::string path = name;
   for (const Alias& alias : schema.aliases())
     if (alias.name == name) path = alias.path;

@@ -95,7 +95,7 @@ std::string make_batch_card(const FinishedBatch& batch, const CardText& given) {
                      describe_splits(batch, given.shares);
   const std::size_t frames = first.manifest.frames.frames.size();
   if (frames > 0) text += describe_sensors(s, frames);
-  text += describe_truth(s);
+  text += describe_truth(s, frames > 0);
   if (frames > 0 && !batch.swept.empty())
     text += "Sensors and truth are those of the first run; the keys above may change them.\n\n";
   text += "## How to make it again\n\n    rubble remake " + run + "/manifest.json --out again\n\nmakes one run; each manifest holds the mission, its seed and every key. "

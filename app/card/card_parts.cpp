@@ -42,7 +42,8 @@ std::string table_row(const std::string& a, const std::string& b) { return "| " 
 namespace {
 
 std::string carried_by(const Carrier& ride) {
-  return ride.on() ? ", on " + printable(ride.robot + "/" + ride.link) : std::string();
+  if (!ride.on()) return "";
+  return ", on `" + printable(ride.link.empty() ? ride.robot : ride.robot + "/" + ride.link) + "`";
 }
 
 // frames: of a single camera; 0: it is one of several.
@@ -66,8 +67,8 @@ std::string describe_camera(const Scenario& s, const MountedCamera& mounted, std
 }  // namespace
 
 std::string describe_sensors(const Scenario& s, std::size_t frames) {
-  const std::vector<MountedCamera> cameras = all_cameras(s);
-  const std::vector<ImuScenario> imus = all_imus(s);
+  const std::vector<MountedCamera>& cameras = s.cameras;
+  const std::vector<ImuScenario>& imus = s.imus;
   std::string text = "## Sensors\n\n| sensor | |\n| --- | --- |\n";
   for (const MountedCamera& mounted : cameras) text += describe_camera(s, mounted, cameras.size() == 1 ? frames : 0);
   if (cameras.size() > 1) text += table_row("frames", std::to_string(frames) + " of all cameras");
@@ -79,24 +80,24 @@ std::string describe_sensors(const Scenario& s, std::size_t frames) {
                           carried_by(imu.ride));
   }
   for (const SensorItem& sensor : s.sensors)
-    text += table_row(sensor.figures->title() + " `" + sensor.name + "`", format_number(sensor.rate_hz) + " Hz" + carried_by(sensor.ride));
-  for (const LidarScenario& lidar : s.lidars)
-    text += table_row("LiDAR `" + lidar.name + "`", lidar.spec().model + ", " + format_number(lidar.spec().rate_hz) +
-                                                        " scans/s" + carried_by(lidar.ride));
+    text += table_row(sensor.figures->title() + " `" + sensor.name + "`", sensor.figures->summary(sensor.rate()) + carried_by(sensor.ride));
   return text + "\n";
 }
 
-std::string describe_truth(const Scenario& s) {
-  std::string text = "## Ground truth\n\nPoses of the camera at each stamp; exact depth; the settled pile as a mesh";
+std::string describe_truth(const Scenario& s, bool flown) {
+  std::string text = "## Ground truth\n\n";
+  if (flown) text += "Poses of " + std::string(s.cameras.size() > 1 ? "the cameras" : "the camera") + " at each stamp; exact depth; ";
+  if (flown && !s.robots.empty()) text += "poses of the robots (`robots/NAME.txt`); ";
+  text += s.outputs.stl || !s.outputs.meshes.empty() ? "the settled pile as a mesh" : "the settled pile (`pile.bin`)";
   std::vector<std::string> channels;
-  for (const MountedCamera& mounted : all_cameras(s))
+  for (const MountedCamera& mounted : s.cameras)
     for (const std::string& channel : mounted.camera.channels)
       if (std::find(channels.begin(), channels.end(), channel) == channels.end()) channels.push_back(channel);
-  for (const std::string& channel : channels) text += "; per pixel `" + channel + "`";
-  const std::string truth = s.cameras.empty() ? "`groundtruth.txt`" : "`cameras/NAME/groundtruth.txt`";
+  for (const std::string& channel : flown ? channels : std::vector<std::string>()) text += "; per pixel `" + channel + "`";
+  const std::string file = s.names_cameras() ? "`cameras/NAME/groundtruth.txt`" : "`groundtruth.txt`";
+  const std::string truth = flown && s.outputs.groundtruth ? " " + file + " has the optical frame in the world, as TUM writes it." : "";
   return text + ".\n\n## Frames\n\nMetres, seconds, right-handed. World: Z up, the ground is z = 0. Camera body "
-                "(REP 103): X forward, Y left, Z up. Optical frame: Z forward, X right, Y down. " + truth +
-                " has the optical frame in the world, as TUM writes it.\n\n";
+                "(REP 103): X forward, Y left, Z up. Optical frame: Z forward, X right, Y down." + truth + "\n\n";
 }
 
 std::string make_card_head(const std::string& title, const std::string& licence) {

@@ -17,7 +17,8 @@ std::string table_row(const std::string& a, const std::string& b);
 
 // Sections, with their headings. frames: of all cameras
 std::string describe_sensors(const Scenario& scenario, std::size_t frames);
-std::string describe_truth(const Scenario& scenario);  // and the frames of reference
+// And the frames of reference. flown: there are frames.
+std::string describe_truth(const Scenario& scenario, bool flown);
 
 // The head, which dataset hubs read as YAML, and the title. licence: empty: none is stated
 std::string make_card_head(const std::string& title, const std::string& licence);

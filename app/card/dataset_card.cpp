@@ -52,7 +52,7 @@ std::string make_dataset_card(const FinishedRun& saved, const CardText& given) {
           ", simulated by Rubble " + printable(m.program.version) + " (" + printable(m.program.commit) +
           ") from seed " + std::to_string(m.seed) + ".\n\n";
   if (flown) text += describe_sensors(s, m.frames.frames.size());
-  text += describe_truth(s) + files(saved) + metrics(m);
+  text += describe_truth(s, flown) + files(saved) + metrics(m);
   text += "## How to make it again\n\n    rubble remake manifest.json --out again\n\nThe manifest holds the mission, "
           "its seed and every key; state hash `" + m.pile.state_hash + "`. Packs are found by content:\n\n";
   std::vector<std::string> packs;

@@ -1,5 +1,6 @@
 #include "app/card/slam_settings.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <vector>
@@ -25,18 +26,49 @@ std::string list(const std::vector<double>& values) {
 std::string row(const std::string& key, double value) { return key + ": " + real(value) + "\n"; }
 std::string row(const std::string& key, int value) { return key + ": " + std::to_string(value) + "\n"; }
 
+// A place on the flying rig, or on a link of a robot.
+struct Mount {
+  Carrier carrier;  // with the name of the link; empty: the rig flies
+  Pose carrier_from_it;
+};
+
+Mount mount_of(const Carrier& ride, const Pose& place, const Scenario& s, const FirstLinks& first_links) {
+  Mount mount{ride, place};
+  if (!ride.on() && s.trajectory.ride.on()) mount = {s.trajectory.ride, s.trajectory.ride.link_from_rig() * place};
+  const auto first = first_links.find(mount.carrier.robot);
+  if (mount.carrier.link.empty() && first != first_links.end()) mount.carrier.link = first->second;
+  return mount;
+}
+
+// An inertial unit, and where it is in the body of a camera.
+struct UnitBeside {
+  ImuScenario unit;
+  Pose body_from_imu;
+};
+
+// The first that moves with the camera.
+std::optional<UnitBeside> find_unit(const Scenario& s, const MountedCamera& camera, const FirstLinks& first_links) {
+  const Mount eye = mount_of(camera.ride, camera.rig_from_camera(), s, first_links);
+  for (const ImuScenario& unit : s.imus) {
+    if (unit.ride == camera.ride) return UnitBeside{unit, camera.rig_from_camera().inverse() * unit.rig_from_imu()};
+    const Mount felt = mount_of(unit.ride, unit.rig_from_imu(), s, first_links);
+    if (felt.carrier == eye.carrier) return UnitBeside{unit, eye.carrier_from_it.inverse() * felt.carrier_from_it};
+  }
+  return std::nullopt;
+}
+
 struct Camera {
   const Scenario& scenario;
   MountedCamera mounted;
   Intrinsics k;
   bool fisheye, stereo;
-  std::optional<ImuScenario> imu;  // the first on the camera's carrier
+  std::optional<ImuScenario> imu;  // the first that moves with the camera
+  Pose body_from_imu;
 
-  explicit Camera(const Scenario& s)
-      : scenario(s), mounted(all_cameras(s).front()), k(mounted.camera.intrinsics()),
+  Camera(const Scenario& s, const MountedCamera& of, const std::optional<UnitBeside>& beside)
+      : scenario(s), mounted(of), k(mounted.camera.intrinsics()),
         fisheye(k.lens == LensModel::fisheye), stereo(mounted.camera.stereo_baseline > 0) {
-    for (const ImuScenario& unit : all_imus(s))
-      if (!imu && unit.ride == mounted.ride) imu = unit;
+    if (beside) imu = beside->unit, body_from_imu = beside->body_from_imu;
   }
   // radtan has no k3; what has one is said in the card.
   std::vector<double> four() const {
@@ -44,7 +76,7 @@ struct Camera {
   }
   double baseline() const { return mounted.camera.stereo_baseline; }
   double rate() const { return mounted.rate_hz.value_or(scenario.trajectory.rate_hz); }
-  std::string topic() const { return mounted.camera.topic.value_or("/" + mounted.name); }
+  std::string topic() const { return mounted.topic(); }
 };
 
 // The rows of a 4 x 4 matrix that ends in 0 0 0 1.
@@ -52,11 +84,8 @@ using Rows = std::vector<std::vector<double>>;
 
 // Points of the inertial unit in the optical frame (Z forward, X right) of the camera, or of the right one.
 Rows optical_from_imu(const Camera& c, bool right) {
-  const Pose rig_from_camera = c.mounted.is_rig() ? Pose{} : c.mounted.rig_from_camera();
-  const Pose rig_from_imu = c.imu->is_rig() ? Pose{} : c.imu->rig_from_imu();
-  const Pose body_from_imu = rig_from_camera.inverse() * rig_from_imu;
-  const Mat3 turn = body_from_imu.rotation.matrix();
-  const Vec3& shift = body_from_imu.translation;
+  const Mat3 turn = c.body_from_imu.rotation.matrix();
+  const Vec3& shift = c.body_from_imu.translation;
   const auto row = [](const Vec3& v, double last, double sign) {
     return std::vector<double>{sign * v.x, sign * v.y, sign * v.z, last};
   };
@@ -163,7 +192,7 @@ std::string kalibr_imu(const ImuScenario& imu) {
   return row("accelerometer_noise_density", m.accelerometer_noise) +
          row("accelerometer_random_walk", m.accelerometer_walk) +
          row("gyroscope_noise_density", m.gyroscope_noise) +
-         row("gyroscope_random_walk", m.gyroscope_walk) + "rostopic: " + imu.topic.value_or("/" + imu.name) + "\n" +
+         row("gyroscope_random_walk", m.gyroscope_walk) + "rostopic: " + imu.ros_topic() + "\n" +
          row("update_rate", m.rate_hz);
 }
 
@@ -200,7 +229,7 @@ std::string camera_yaml(const Camera& c) {
     return key + ":\n   rows: " + std::to_string(rows) + "\n   cols: " + std::to_string(cols) +
            "\n   data: " + list(values) + "\n";
   };
-  return "%YAML:1.0\n---\ncamera_name: camera\n" + row("image_width", c.k.width) +
+  return "%YAML:1.0\n---\ncamera_name: " + c.mounted.name + "\n" + row("image_width", c.k.width) +
          row("image_height", c.k.height) + matrix("camera_matrix", 3, 3, k) + "distortion_model: " +
          (c.fisheye ? "equidistant" : "plumb_bob") + "\n" +
          matrix("distortion_coefficients", 1, int(distortion.size()), distortion) +
@@ -217,8 +246,12 @@ std::string rtabmap(const Camera& c) {
 
 }  // namespace
 
-std::map<std::string, std::string> make_slam_settings(const Scenario& scenario) {
-  const Camera camera(scenario);
+std::map<std::string, std::string> make_slam_settings(const Scenario& scenario, const FirstLinks& first_links) {
+  const std::vector<MountedCamera>& cameras = scenario.cameras;
+  const auto unit_of = [&](const MountedCamera& c) { return find_unit(scenario, c, first_links); };
+  const auto with_unit = std::find_if(cameras.begin(), cameras.end(), unit_of);
+  const MountedCamera& chosen = with_unit == cameras.end() ? cameras.front() : *with_unit;
+  const Camera camera(scenario, chosen, unit_of(chosen));
   std::map<std::string, std::string> files;
   files["orbslam3.yaml"] = orbslam3(camera);
   files["kalibr/camchain.yaml"] = camera_chain(camera);

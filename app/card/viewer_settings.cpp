@@ -3,7 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "scripting/scenario/lidar_schema.h"
+#include "io/ros/ros_messages.h"
+#include "scripting/scenario/scenario.h"
 
 namespace rubble {
 namespace {
@@ -27,8 +28,8 @@ std::vector<Display> list_pictures(const Scenario& scenario) {
   const OutputScenario& out = scenario.outputs;
   const std::string colour = out.pictures == PictureEncoding::raw ? "raw" : "compressed";
   std::vector<Display> displays;
-  for (const MountedCamera& mounted : all_cameras(scenario)) {
-    const std::string topic = mounted.camera.topic.value_or("/" + mounted.name);
+  for (const MountedCamera& mounted : scenario.cameras) {
+    const std::string topic = mounted.topic();
     displays.push_back({"Image", mounted.name, topic + "/rgb/image_raw", colour});
     if (mounted.camera.stereo_baseline > 0)
       displays.push_back({"Image", mounted.name + ", right", topic + "/right/image_raw", colour});
@@ -40,8 +41,8 @@ std::vector<Display> list_depths(const Scenario& scenario) {
   const OutputScenario& out = scenario.outputs;
   const bool packed = out.pictures != PictureEncoding::raw && out.depth == DepthEncoding::millimetres;
   std::vector<Display> displays;
-  for (const MountedCamera& mounted : all_cameras(scenario)) {
-    const std::string topic = mounted.camera.topic.value_or("/" + mounted.name) + "/depth_registered/";
+  for (const MountedCamera& mounted : scenario.cameras) {
+    const std::string topic = mounted.topic() + "/depth_registered/";
     displays.push_back({"DepthCloud", mounted.name + ", depth",
                         topic + (out.depth == DepthEncoding::millimetres ? "image_raw" : "image"),
                         packed ? "compressedDepth" : "raw"});
@@ -49,11 +50,11 @@ std::vector<Display> list_depths(const Scenario& scenario) {
   return displays;
 }
 
-std::vector<Display> list_lidars(const Scenario& scenario) {
+std::vector<Display> list_scans(const Scenario& scenario) {
   std::vector<Display> displays;
-  for (std::size_t i = 0; i < scenario.lidars.size(); ++i)
-    displays.push_back({scenario.lidars[i].planar() ? "LaserScan" : "PointCloud2", scenario.lidars[i].name,
-                        lidar_topic(scenario, i), ""});
+  for (const SensorItem& sensor : scenario.sensors)
+    if (scans(sensor))
+      displays.push_back({sensor.figures->topics().front().type->name, sensor.name, topic_of(scenario.sensors, sensor), ""});
   return displays;
 }
 
@@ -102,7 +103,7 @@ json rows_of(const std::vector<std::string>& panels, std::size_t from) {
 std::string make_foxglove(const Scenario& scenario, const std::vector<Display>& pictures) {
   json panels = json::object();
   json topics = json::object();
-  for (const Display& cloud : list_lidars(scenario)) topics[cloud.full_topic()] = {{"visible", true}};
+  for (const Display& cloud : list_scans(scenario)) topics[cloud.full_topic()] = {{"visible", true}};
   panels["3D!pile"] = {{"followTf", "world"}, {"followMode", "follow-none"}, {"topics", topics},
                        {"cameraState", {{"distance", 15}, {"phi", 60}, {"thetaOffset", 45}, {"perspective", true}}}};
   std::vector<std::string> column;
@@ -112,13 +113,13 @@ std::string make_foxglove(const Scenario& scenario, const std::vector<Display>& 
     column.push_back("Image!picture" + std::to_string(i));
     panels[column.back()] = {{"imageMode", {{"imageTopic", shown[i].full_topic()}}}};
   }
-  if (scenario.imu.on) {
-    column.push_back("Plot!imu");
+  for (const ImuScenario& imu : scenario.imus) {
+    column.push_back("Plot!" + imu.name);
     json paths = json::array();
     for (const char* axis : {"x", "y", "z"})
-      paths.push_back({{"value", scenario.imu.topic.value_or("/imu") + ".linear_acceleration." + axis},
+      paths.push_back({{"value", imu.ros_topic() + ".linear_acceleration." + axis},
                        {"enabled", true}, {"timestampMethod", "receiveTime"}});
-    panels["Plot!imu"] = {{"paths", paths}};
+    panels[column.back()] = {{"paths", paths}};
   }
   const json file{{"configById", panels}, {"globalVariables", json::object()}, {"userNodes", json::object()},
                   {"playbackConfig", {{"speed", 1}}},
@@ -131,7 +132,7 @@ std::string make_foxglove(const Scenario& scenario, const std::vector<Display>& 
 std::map<std::string, std::string> make_viewer_settings(const Scenario& scenario) {
   const std::vector<Display> pictures = list_pictures(scenario);
   std::vector<Display> displays = pictures;
-  for (const auto& more : {list_depths(scenario), list_lidars(scenario)})
+  for (const auto& more : {list_depths(scenario), list_scans(scenario)})
     displays.insert(displays.end(), more.begin(), more.end());
   return {{"ros1.rviz", make_rviz(displays, 1)},
           {"ros2.rviz", make_rviz(displays, 2)},

@@ -5,15 +5,9 @@
 #include <utility>
 
 #include "app/robots/robot_log.h"
-#include "kernel/base/portable_math.h"
-#include "kernel/robot/bundled.h"
-#include "kernel/robot/gaits.h"
+#include "scripting/robots/robot_kind.h"
 
 namespace rubble {
-
-RobotCommand drive_sides(const RobotModel& model, const Twist& twist, const std::vector<double>& flippers) {
-  return model.sides.belts ? drive_tracks(model, twist, flippers) : drive_wheels(model, twist);
-}
 
 void ask_motors(const RobotModel& model, const std::vector<double>& targets, MotorMode mode, RobotCommand& command) {
   command.joints.resize(model.joints.size());
@@ -24,44 +18,6 @@ void ask_motors(const RobotModel& model, const std::vector<double>& targets, Mot
 }
 
 namespace {
-
-constexpr double kDegree = portable::kPi / 180;
-
-SnakeGait gait_of(const RobotLeg& leg) {
-  const double steering = leg.steering_deg * kDegree;
-  SnakeGait gait;
-  switch (leg.gait) {
-    case GaitKind::lateral_undulation:
-      gait = lateral_undulation();
-      break;
-    case GaitKind::sidewinding:
-      gait = sidewinding();
-      break;
-    case GaitKind::rolling:
-      gait = rolling();
-      break;
-    case GaitKind::serpenoid:
-      gait = serpenoid(0);
-      break;
-    case GaitKind::helical_rolling:
-      gait = helical_rolling();
-      break;
-  }
-  gait.rate = leg.rate;
-  gait.lateral_phase -= leg.phase, gait.vertical_phase -= leg.phase;
-  gait.lateral_amplitude *= leg.amplitude;
-  gait.vertical_amplitude *= leg.amplitude;
-  gait.steering = steering;
-  return gait;
-}
-
-bool is_snake(const RobotItem& robot) { return robot.urdf.empty() && robot.model == RobotKind::snake; }
-
-std::vector<double> in_radians(const std::vector<double>& degrees) {
-  std::vector<double> angles;
-  for (double angle : degrees) angles.push_back(angle * kDegree);
-  return angles;
-}
 
 void ask_leg_joints(const RobotModel& model, const RobotLeg& leg, RobotCommand& command) {
   if (leg.joint_names.empty()) return ask_motors(model, leg.joints, MotorMode::position, command);
@@ -151,22 +107,13 @@ std::vector<MissionRobot> make_robots(const ResolvedMission& mission, RunContext
 }
 
 RobotCommand command_of_leg(const RobotItem& robot, const RobotModel& model, const RobotLeg& leg, double time) {
-  RobotCommand command;
-  if (model.tube) {
-    command = drive_vine(model, {leg.growth, leg.curvature, leg.curvature_up});
-  } else if (is_snake(robot)) {
-    command = calc_gait(model, gait_of(leg), time);
-  } else {
-    command = drive_sides(model, {leg.linear, leg.angular}, in_radians(leg.flippers_deg));
-  }
+  RobotCommand command = kind_of(robot).command(model, leg, time);
   ask_leg_joints(model, leg, command);
   return command;
 }
 
 RobotController make_leg_controller(const RobotItem& robot, const RobotModel& model) {
-  return [robot, &model](const RobotSense& sense) {
-    RobotLeg still;
-    still.amplitude = is_snake(robot) ? 0 : 1;  // without legs it stands straight
+  return [robot, &model, still = kind_of(robot).still(robot)](const RobotSense& sense) {
     const auto next = std::upper_bound(robot.drive.begin(), robot.drive.end(), sense.time,
                                        [](double time, const RobotLeg& leg) { return time < leg.t; });
     return command_of_leg(robot, model, next == robot.drive.begin() ? still : *(next - 1), sense.time);

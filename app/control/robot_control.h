@@ -8,7 +8,6 @@
 #include "app/mission/resolved_mission.h"
 #include "app/robots/mission_robot.h"
 #include "kernel/model/robot.h"
-#include "kernel/robot/gaits.h"
 #include "kernel/robot/robot_run.h"
 
 namespace rubble {
@@ -27,8 +26,6 @@ std::size_t find_motor(const RobotModel& model, const std::string& name, const s
 // The mistake, with that key, of more values than there are motors at joints.
 std::optional<Diagnostic> find_surplus(const RobotModel& model, std::size_t values, const std::string& key);
 
-// A twist for what tracks or wheels drive. flippers: of a crawler; unit: rad; empty: as they stood.
-RobotCommand drive_sides(const RobotModel& model, const Twist& twist, const std::vector<double>& flippers);
 // Asks the motors, which are numbered among themselves, in their order.
 void ask_motors(const RobotModel& model, const std::vector<double>& targets, MotorMode mode, RobotCommand& command);
 

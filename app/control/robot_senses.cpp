@@ -21,15 +21,14 @@ bool is_sensed(const Scenario& scenario, const std::string& name) {
                      [&](const RobotItem& robot) { return senses(robot, name); });
 }
 
-RobotSenses::RobotSenses(const Scenario& scenario) : scenario_(scenario), untold_(scenario.robots.size()) {
-  for (const MountedCamera& camera : all_cameras(scenario)) camera_names_.push_back(camera.name);
-  for (const ImuScenario& imu : all_imus(scenario)) imu_names_.push_back(imu.name);
+RobotSenses::RobotSenses(const Scenario& scenario, std::int64_t start_ns)
+    : scenario_(scenario), start_ns_(start_ns), untold_(scenario.robots.size()) {
+  for (const MountedCamera& camera : scenario.cameras) camera_names_.push_back(camera.name);
+  for (const ImuScenario& imu : scenario.imus) imu_names_.push_back(imu.name);
 }
 
 RobotSenses::Sensed RobotSenses::sensed() const {
   Sensed all;
-  for (std::size_t i = 0; i < scenario_.lidars.size(); ++i)
-    if (is_sensed(scenario_, scenario_.lidars[i].name)) all.lidars.push_back(i);
   for (std::size_t i = 0; i < scenario_.sensors.size(); ++i)
     if (is_sensed(scenario_, scenario_.sensors[i].name)) all.readings.push_back(i);
   for (std::size_t i = 0; i < camera_names_.size(); ++i) {
@@ -42,7 +41,6 @@ RobotSenses::Sensed RobotSenses::sensed() const {
 }
 
 std::string RobotSenses::sense_of(const Sample& sample) const {
-  if (const auto* scan = std::get_if<LidarScan>(&sample)) return scenario_.lidars[std::size_t(scan->sensor)].name;
   if (const auto* reading = std::get_if<ImuSample>(&sample)) return imu_names_[std::size_t(reading->sensor)];
   if (const auto* values = std::get_if<Reading>(&sample)) return scenario_.sensors[std::size_t(values->sensor)].name;
   const auto* frame = std::get_if<Frame>(&sample);
@@ -59,32 +57,35 @@ void RobotSenses::hear(const Sample& sample) {
 }
 
 void RobotSenses::tell(std::size_t robot, Value& told) {
-  const std::int64_t start = scenario_.start_ns;
-  Value lidars = Value::make_table(), cameras = Value::make_table(), images = Value::make_table();
+  std::map<std::string, Value> scanners;  // by kind: a table of its sensors
+  for (const SensorKind* kind : sensor_kinds())
+    if (kind->most_points() > 0) scanners.emplace(kind->key(), Value::make_table());
+  Value cameras = Value::make_table(), images = Value::make_table();
   std::map<std::string, Value> imus, sensors;
   const auto add = [](std::map<std::string, Value>& lists, const std::string& name, Value reading) {
     lists.emplace(name, Value::make_table()).first->second.items.push_back(std::move(reading));
   };
   // Of several scans and pictures since the last call, the newest; of readings, all.
   for (const auto& sample : std::exchange(untold_[robot], {})) {
-    if (const auto* scan = std::get_if<LidarScan>(&*sample)) {
-      const LidarScenario& lidar = scenario_.lidars[std::size_t(scan->sensor)];
-      lidars.set(lidar.name, describe_scan(*scan, lidar.spec(), start));
-    } else if (const auto* reading = std::get_if<ImuSample>(&*sample)) {
-      add(imus, imu_names_[std::size_t(reading->sensor)], describe_reading(*reading, start));
+    if (const auto* reading = std::get_if<ImuSample>(&*sample)) {
+      add(imus, imu_names_[std::size_t(reading->sensor)], describe_reading(*reading, start_ns_));
     } else if (const auto* values = std::get_if<Reading>(&*sample)) {
       const SensorItem& sensor = scenario_.sensors[std::size_t(values->sensor)];
-      add(sensors, sensor.name, describe_values(*values, sensor, start));
+      Value described = describe_values(*values, sensor, start_ns_);
+      if (values->scan)
+        scanners.at(sensor.figures->key()).set(sensor.name, std::move(described));
+      else
+        add(sensors, sensor.name, std::move(described));
     } else {
       const Frame& frame = std::get<Frame>(*sample);
       const std::string& camera = camera_names_[std::size_t(frame.sensor)];
       if (frame.rgb.empty())
-        cameras.set(camera, describe_depth(frame, start));
+        cameras.set(camera, describe_depth(frame, start_ns_));
       else
-        images.set(camera, describe_colours(frame, start));
+        images.set(camera, describe_colours(frame, start_ns_));
     }
   }
-  told.set("lidars", std::move(lidars));
+  for (auto& [kind, table] : scanners) told.set(kind, std::move(table));
   told.set("cameras", std::move(cameras));
   told.set("images", std::move(images));
   for (const auto& [member, lists] : {std::make_pair("imus", &imus), std::make_pair("sensors", &sensors)}) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,18 +18,18 @@ bool is_sensed(const Scenario& scenario, const std::string& name);
 
 class RobotSenses {
  public:
-  // scenario: must outlive this.
-  explicit RobotSenses(const Scenario& scenario);
+  // scenario: must outlive this. start_ns: the stamp of the robots' time 0.
+  RobotSenses(const Scenario& scenario, std::int64_t start_ns);
 
   // Numbers of the sensors that `senses` of any robot names.
   struct Sensed {
-    std::vector<std::size_t> lidars, readings, depths, colours, imus;
+    std::vector<std::size_t> readings, depths, colours, imus;
   };
   Sensed sensed() const;
 
   // A frame has depth, or colours.
   void hear(const Sample& sample);
-  // Adds `lidars`, `cameras`, `images`, `imus` and `sensors` to what the robot's function is told: what was heard since its last
+  // Adds the tables of kinds that scan, `cameras`, `images`, `imus` and `sensors` to what the robot's function is told: what was heard since its last
   // call.
   void tell(std::size_t robot, Value& told);
 
@@ -36,6 +37,7 @@ class RobotSenses {
   std::string sense_of(const Sample& sample) const;
 
   const Scenario& scenario_;
+  std::int64_t start_ns_;
   std::vector<std::string> camera_names_, imu_names_;
   std::vector<std::vector<std::shared_ptr<const Sample>>> untold_;  // by robot
 };

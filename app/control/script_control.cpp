@@ -8,9 +8,9 @@
 #include "app/control/robot_control.h"
 #include "app/control/sense_tables.h"
 #include "app/support/print.h"
-#include "kernel/robot/bundled.h"
 #include "kernel/robot/odometry.h"
 #include "scripting/mission.h"
+#include "scripting/robots/robot_kind.h"
 #include "scripting/sandbox/lua_sandbox.h"
 #include "scripting/sandbox/script_file.h"
 #include "scripting/sandbox/source_map.h"
@@ -21,34 +21,29 @@ namespace {
 
 constexpr double kMostTarget = 1e6;  // of what a function may ask of a joint; unit: rad, rad/s, N m
 
-// What a function returns.
-struct Wish {
-  double linear = 0, angular = 0;
-  Growth growth;
-  std::vector<double> flippers, joints, speeds, torques;
+// What a function returns: a command, whose joints may have speeds or torques instead of positions.
+struct Answer {
+  RobotLeg leg;
+  std::vector<double> speeds, torques;
 };
 
-Schema wish_schema(Wish& wish) {
+Schema answer_schema(const RobotKind& kind, Answer& answer) {
   Schema k;
-  k.value("linear", wish.linear, "Forwards.").between(-5, 5).unit("m/s");
-  k.value("angular", wish.angular, "Counter-clockwise.").between(-10, 10).unit("rad/s");
-  k.value("growth", wish.growth.speed, "Speed of a vine's tip.").between(-1, 1).unit("m/s");
-  k.value("curvature", wish.growth.curve_left, "Of what grows, to the left.").between(-5, 5).unit("1/m");
-  k.value("curvature_up", wish.growth.curve_up, "Of what grows, upwards.").between(-5, 5).unit("1/m");
-  k.value("flippers", wish.flippers, "Angles of a crawler's.").between(-4, 4).unit("rad");
-  k.value("joints", wish.joints, "Positions.").between(-kMostTarget, kMostTarget);
-  k.value("speeds", wish.speeds, "Instead of positions.").between(-kMostTarget, kMostTarget);
-  k.value("torques", wish.torques, "Instead of positions.").between(-kMostTarget, kMostTarget);
+  k.value("linear", answer.leg.linear, "Forwards.").between(-5, 5).unit("m/s");
+  k.value("angular", answer.leg.angular, "Counter-clockwise.").between(-10, 10).unit("rad/s");
+  k.value("flippers", answer.leg.flippers, "Angles of a tracked robot's.").between(-4, 4).unit("rad");
+  kind.add_answer_keys(answer.leg, k);
+  k.value("joints", answer.leg.joints, "Positions.").between(-kMostTarget, kMostTarget);
+  k.value("speeds", answer.speeds, "Instead of positions.").between(-kMostTarget, kMostTarget);
+  k.value("torques", answer.torques, "Instead of positions.").between(-kMostTarget, kMostTarget);
   return k;
 }
 
-RobotCommand command_of(const Wish& wish, const RobotModel& model) {
-  RobotCommand command;
-  if (model.sides.any()) command = drive_sides(model, {wish.linear, wish.angular}, wish.flippers);
-  if (model.tube) command = drive_vine(model, wish.growth);
-  ask_motors(model, wish.joints, MotorMode::position, command);
-  ask_motors(model, wish.speeds, MotorMode::velocity, command);
-  ask_motors(model, wish.torques, MotorMode::torque, command);
+RobotCommand command_of(const RobotKind& kind, const Answer& answer, const RobotModel& model) {
+  RobotCommand command = kind.answer(model, answer.leg);
+  ask_motors(model, answer.leg.joints, MotorMode::position, command);
+  ask_motors(model, answer.speeds, MotorMode::velocity, command);
+  ask_motors(model, answer.torques, MotorMode::torque, command);
   return command;
 }
 
@@ -97,19 +92,19 @@ RobotController ScriptControl::controller_of(std::size_t robot, const RobotModel
   const auto wheels = model.sides.any() ? std::make_shared<WheelOdometry>(model, odometry_noise(state.mission.scenario, robot)) : nullptr;
   return [&state, robot, item, model, key, gravity, wheels, last = Vec3{}, last_time = 0.0](
              const RobotSense& sense) mutable {
-    Value told = describe_sense(sense, model, gravity, last, last_time);
+    Value told = describe_sense(sense, kind_of(item), model, gravity, last, last_time);
     if (wheels) told.set("odometry", describe_odometry(wheels->update(sense.state, sense.time)));
     if (!item.senses.empty()) state.tell(robot, told);
-    const Value answer = call(state.sandbox, item.control, told);
-    Wish wish;
+    const Value returned = call(state.sandbox, item.control, told);
+    Answer answer;
     std::vector<Diagnostic> mistakes;
-    if (answer.kind != Value::Kind::table) {
+    if (returned.kind != Value::Kind::table) {
       mistakes.push_back({"", 0, "", "the function returned no valid commands",
-                          "a table such as { linear = 0.3, angular = 0 }", describe(answer), ""});
+                          "a table such as { linear = 0.3, angular = 0 }", describe(returned), ""});
     } else {
-      read_table(wish_schema(wish), answer, mistakes);
+      read_table(answer_schema(kind_of(item), answer), returned, mistakes);
       const std::pair<const char*, std::size_t> counts[] = {
-          {"joints", wish.joints.size()}, {"speeds", wish.speeds.size()}, {"torques", wish.torques.size()}};
+          {"joints", answer.leg.joints.size()}, {"speeds", answer.speeds.size()}, {"torques", answer.torques.size()}};
       for (const auto& [member, count] : counts)
         if (auto surplus = find_surplus(model, count, member)) mistakes.push_back(std::move(*surplus));
     }
@@ -120,7 +115,7 @@ RobotController ScriptControl::controller_of(std::size_t robot, const RobotModel
       d.line = state.lines.line_of(key);
     }
     throw_if_any(std::move(mistakes));
-    return command_of(wish, model);
+    return command_of(kind_of(item), answer, model);
   };
 }
 

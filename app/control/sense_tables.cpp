@@ -14,44 +14,23 @@ Value vector_value(const Vec3& v) {
   return list;
 }
 
-// Of a robot that grows: how long it is, and what its tip meets.
-Value describe_vine(const RobotState& state) {
-  const RobotState::Link& tip = state.links.back();
-  Value vine = Value::make_table();
-  vine.set("length", Value::make_number(state.length));
-  vine.set("speed", Value::make_number(state.joints.back().speed));
-  const Vec3 forwards = tip.world_from_link.rotation.rotate({1, 0, 0});
-  vine.set("force", Value::make_number(-dot(tip.contact_force, forwards)));
-  vine.set("most_force", Value::make_number(state.tip_force));
-  return vine;
-}
-
-Value describe_tip(const Pose& world_from_tip) {
-  Value tip = Value::make_table();
-  tip.set("position", vector_value(world_from_tip.translation));
-  tip.set("forwards", vector_value(world_from_tip.rotation.rotate({1, 0, 0})));
-  tip.set("left", vector_value(world_from_tip.rotation.rotate({0, 1, 0})));
-  tip.set("up", vector_value(world_from_tip.rotation.rotate({0, 0, 1})));
-  return tip;
-}
-
 Value describe_stamp(std::int64_t stamp_ns, std::int64_t start_ns) {
   return Value::make_number(double(stamp_ns - start_ns) * 1e-9);
 }
 
 // One number of each point.
 template <typename Of>
-Value describe_points(const LidarScan& scan, Of of) {
+Value describe_points(const RangeScan& scan, Of of) {
   Value list = Value::make_table();
   list.items.reserve(scan.points.size());
-  for (const LidarPoint& point : scan.points) list.items.push_back(of(point));
+  for (const ScanPoint& point : scan.points) list.items.push_back(of(point));
   return list;
 }
 
 // A range for each ray of a scanner in one plane; infinite: no echo. Of two echoes the stronger, which comes first.
-Value describe_ranges(const LidarScan& scan, const LidarSpec& spec) {
-  std::vector<double> ranges(std::size_t(spec.columns), std::numeric_limits<double>::infinity());
-  for (const LidarPoint& p : scan.points) {
+Value describe_ranges(const RangeScan& scan) {
+  std::vector<double> ranges(std::size_t(scan.spec->columns), std::numeric_limits<double>::infinity());
+  for (const ScanPoint& p : scan.points) {
     double& range = ranges[p.column];
     if (std::isinf(range)) range = norm(Vec3(p.x, p.y, p.z));
   }
@@ -73,7 +52,7 @@ Value describe_odometry(const OdometryReading& reading) {
   return odometry;
 }
 
-Value describe_sense(const RobotSense& sense, const RobotModel& model, double gravity, Vec3& last,
+Value describe_sense(const RobotSense& sense, const RobotKind& kind, const RobotModel& model, double gravity, Vec3& last,
                      double& last_time) {
   Value table = Value::make_table();
   table.set("t", Value::make_number(sense.time));
@@ -112,33 +91,28 @@ Value describe_sense(const RobotSense& sense, const RobotModel& model, double gr
   const Vec3 x = base.world_from_link.rotation.rotate({1, 0, 0});
   truth.set("position", vector_value(base.world_from_link.translation));
   truth.set("yaw", Value::make_number(portable::atan2(x.y, x.x)));
-  if (model.tube) {
-    truth.set("tip", describe_tip(sense.state.links.back().world_from_link));
-    table.set("vine", describe_vine(sense.state));
-  }
+  kind.tell(sense.state, table, truth);
   table.set("truth", truth);
   return table;
 }
 
-Value describe_scan(const LidarScan& scan, const LidarSpec& spec, std::int64_t start_ns) {
-  Value table = Value::make_table();
-  table.set("t", describe_stamp(scan.stamp_ns, start_ns));
-  if (spec.pattern == LidarPattern::planar) {
-    constexpr double kDegree = portable::kPi / 180;
-    table.set("ranges", describe_ranges(scan, spec));
-    table.set("first_angle", Value::make_number(spec.first_azimuth_deg * kDegree));
-    table.set("angle_step", Value::make_number(spec.span_deg * kDegree / spec.columns));
-    return table;
-  }
-  table.set("x", describe_points(scan, [](const LidarPoint& p) { return Value::make_number(p.x); }));
-  table.set("y", describe_points(scan, [](const LidarPoint& p) { return Value::make_number(p.y); }));
-  table.set("z", describe_points(scan, [](const LidarPoint& p) { return Value::make_number(p.z); }));
-  table.set("intensity", describe_points(scan, [](const LidarPoint& p) { return Value::make_number(p.intensity); }));
-  table.set("ring", describe_points(scan, [](const LidarPoint& p) { return Value::make_integer(p.ring); }));
-  return table;
-}
-
 namespace {
+
+void describe_scan(const RangeScan& scan, Value& table) {
+  const auto& spec = *scan.spec;
+  if (spec.planar()) {
+    constexpr double kRadians = portable::kPi / 180;
+    table.set("ranges", describe_ranges(scan));
+    table.set("first_angle", Value::make_number(spec.first_azimuth_deg * kRadians));
+    table.set("angle_step", Value::make_number(spec.span_deg * kRadians / spec.columns));
+    return;
+  }
+  table.set("x", describe_points(scan, [](const ScanPoint& p) { return Value::make_number(p.x); }));
+  table.set("y", describe_points(scan, [](const ScanPoint& p) { return Value::make_number(p.y); }));
+  table.set("z", describe_points(scan, [](const ScanPoint& p) { return Value::make_number(p.z); }));
+  table.set("intensity", describe_points(scan, [](const ScanPoint& p) { return Value::make_number(p.intensity); }));
+  table.set("ring", describe_points(scan, [](const ScanPoint& p) { return Value::make_integer(p.ring); }));
+}
 
 // Of a picture, without its pixels.
 Value describe_frame(const Frame& frame, std::int64_t start_ns) {
@@ -162,6 +136,7 @@ Value describe_reading(const ImuSample& reading, std::int64_t start_ns) {
 Value describe_values(const Reading& reading, const SensorItem& sensor, std::int64_t start_ns) {
   Value table = Value::make_table();
   table.set("t", describe_stamp(reading.stamp_ns, start_ns));
+  if (reading.scan) describe_scan(*reading.scan, table);
   const std::vector<ReadingColumn> columns = sensor.figures->columns();
   for (std::size_t i = 0; i < columns.size(); ++i) table.set(columns[i].name, Value::make_number(reading.values[i]));
   return table;

@@ -100,7 +100,7 @@ const std::vector<KeyHelp>& all_key_help() {
       {"pause", "space", "start"},
       {"one step; slow motion", "period; comma", ""},
       {"hulls, contacts", "V, C", ""},
-      {"links, LiDAR echoes", "G, B", ""},
+      {"links, echoes of scans", "G, B", ""},
       {"map of voids", "M", ""},
       {"save a picture", "P", "press the left stick"},
       {"this help", "H or F1", "X"},

@@ -1,10 +1,11 @@
-// What a person asks of the driven camera in one simulation step, whatever it was asked with.
+// What a person or a program asks of the driven camera or robot in one simulation step, whatever it was asked with.
 #pragma once
 
 #include <vector>
 
 #include "io/live/drive_commands.h"
 #include "kernel/base/math.h"
+#include "scripting/robots/robot_kind.h"
 
 namespace rubble {
 
@@ -25,7 +26,7 @@ enum class DriveAction {
   hulls,      // shown or not
   contacts,   // likewise, with their forces
   frames,     // likewise, of the robots' links
-  scans,      // likewise, what LiDARs measured last
+  scans,      // likewise, what was scanned last
   cameras,    // likewise, what cameras have in view
   voids,      // likewise, the map of voids
   moment,     // save this moment as a mission
@@ -34,16 +35,16 @@ enum class DriveAction {
   quit,
 };
 
-struct DriveInput {
-  // Held axes, range: -1 to 1. Turns are about the camera body's X, Y and Z axes: positive rolls to
-  // the right, lowers the nose, turns left.
-  double forward = 0, roll = 0, pitch = 0, yaw = 0;
-  // Asked for in figures, besides; bounded by DriveLimits. In the camera body frame (X forward,
-  // Y left, Z up); units: m/s, rad/s
-  Vec3 linear, angular;
+struct DriveInput : TeleopCommand {  // its `speed` is the camera's or the robot's, not asked for here
   Vec3 look_deg;                     // turned at once, by the mouse: about X, Y, Z; unit: degree
   std::vector<JointTrajectoryCommand> trajectories;  // for the joints of a robot, in the order in which they came
   std::vector<DriveAction> actions;  // in the order in which they came
+
+  // Whether anything is to move.
+  bool moves() const {
+    return forward != 0 || roll != 0 || pitch != 0 || yaw != 0 || norm(linear) > 0 || norm(angular) > 0 || norm(look_deg) > 0 ||
+           !trajectories.empty();
+  }
 };
 
 }  // namespace rubble

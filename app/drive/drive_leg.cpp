@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "app/mission/scenario_lua.h"
 #include "app/pipeline/recorders.h"
@@ -50,29 +51,40 @@ DriveLeg::DriveLeg(DriveWorld& world, const std::string& folder, int number, boo
     : world_(world),
       folder_(folder),
       name_(number_name(number)),
-      log_(world.scenario),
+      log_(world.scenario, world.steps_per_frame),
       camera_(*world.renderer,
-              build_camera(world.scenario, all_cameras(world.scenario).front(), world.threads),
+              build_camera(world.scenario.cameras.front(), world.scenario.seed, world.threads),
               Flight{}),
+      between_(*world.renderer,
+               build_camera(world.scenario.cameras.front(), world.scenario.seed, world.threads),
+               Flight{}),
       listener_(std::move(listener)) {
   if (record) queue_ = start_recording(world, folder_ + "/" + name_);
 }
 
 const Frame& DriveLeg::step(const DrivenPose& pose) {
-  const int index = log_.frames();
   log_.add(pose);
-  if (index > 0) pass_on();
-  camera_.fly_on(log_.stamp_ns(index),
-                 world_.robots ? world_.robots->world_from_rig() : pose.world_from_camera());
+  pass_on();
+  const Pose place = world_.robots ? world_.robots->world_from_rig() : pose.world_from_camera();
+  if (!log_.at_frame()) {
+    const int shown = log_.steps() - log_.frames() - 1;
+    between_.fly_on(world_.scenario.start_ns + std::int64_t(1e9 * log_.time(log_.steps() - 1)), place);
+    shown_between_ = between_.take(shown);
+    return *(shown_ = &shown_between_);
+  }
+  const int index = log_.frames() - 1;
+  camera_.fly_on(log_.stamp_ns(index), place);
   frame_ = camera_.take(index);
+  pending_ = true;
   // Whoever closes a loop over what is published waits for nothing; the velocity of a carried camera is not told.
   if (world_.robots && listener_) listener_(frame_);
   if ((index + 1) % kSaveEvery == 0) save();
-  return frame_;
+  return *(shown_ = &frame_);
 }
 
+// With robots nothing is recorded, and it was passed on at once.
 void DriveLeg::pass_on() {
-  if (world_.robots) return;  // nothing is recorded, and it was passed on at once
+  if (!std::exchange(pending_, false) || world_.robots) return;
   frame_.rig_velocity = frame_.linear_velocity = log_.velocity(frame_.index);
   hashes_.add(frame_);
   if (queue_) queue_->push(frame_);

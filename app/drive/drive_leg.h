@@ -1,4 +1,4 @@
-// One leg of a drive: frames under unchanged lamp, air and pile, and the files about them.
+// One leg of a drive: steps under unchanged lamp, air and pile, the frames among them, and the files about them.
 //
 //   DIR/leg_001.lua      the mission that gives these frames again
 //   DIR/leg_001.hashes   the hashes of the frames that were seen, as in a manifest; of driven robots instead:
@@ -27,10 +27,14 @@ class DriveLeg {
   DriveLeg(DriveWorld& world, const std::string& folder, int number, bool record,
            FrameListener listener = {});
 
-  // The frame from there, one step after the one before. With robots, from where the camera rides.
+  // The view from there, one step after the one before. With robots, from where the camera rides. Steps between two frames
+  // are shown alone.
   const Frame& step(const DrivenPose& pose);
-  const Frame& shown() const { return frame_; }
+  const Frame& shown() const { return *shown_; }
   int frames() const { return log_.frames(); }
+  int steps() const { return log_.steps(); }
+  bool at_frame() const { return log_.at_frame(); }           // whether the last step was a frame
+  double next_time() const { return log_.time(log_.steps()); }  // of the next step, since the first; unit: s
   const std::string& name() const { return name_; }
   // Completes the files. Nothing can be added afterwards.
   void finish();
@@ -42,9 +46,11 @@ class DriveLeg {
   DriveWorld& world_;
   std::string folder_, name_;
   DriveLog log_;
-  Camera camera_;
+  Camera camera_, between_;  // of frames; of what is only shown
   FrameHashes hashes_;
-  Frame frame_;
+  Frame frame_, shown_between_;
+  const Frame* shown_ = &frame_;
+  bool pending_ = false;  // the frame, whose velocity is not known yet
   std::unique_ptr<RecordingQueue> queue_;
   FrameListener listener_;
 };

@@ -63,11 +63,16 @@ void DriveLink::publish(const Frame& frame, const std::vector<Sample>& sensed) {
   sent.index = of_this_world_++;
   sent.stamp_ns =
       start_ns_ + std::int64_t(std::floor(double(published_++) * 1e9 / rate_hz_ + 0.5));
-  for (Sample sample : sensed) {
-    std::visit([&](auto& of) { of.stamp_ns += sent.stamp_ns - frame.stamp_ns; }, sample);
+  shift_ns_ = sent.stamp_ns - frame.stamp_ns;
+  publish(sensed);
+  recorder_->write(sent);
+}
+
+void DriveLink::publish(std::vector<Sample> sensed) {
+  for (Sample& sample : sensed) {
+    std::visit([&](auto& of) { of.stamp_ns += shift_ns_; }, sample);
     write_sample(*recorder_, sample);
   }
-  recorder_->write(sent);
 }
 
 void DriveLink::finish() { stream_->finish(); }

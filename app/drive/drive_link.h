@@ -27,7 +27,9 @@ class DriveLink {
   // Every leg begins at the mission's first stamp; what goes out goes on in time over all legs, so
   // that nobody's clock jumps back. Only the stamps of later legs differ from their recordings.
   // sensed: by robots since the frame before.
-  void publish(const Frame& frame, const std::vector<Sample>& sensed = {});
+  void publish(const Frame& frame, const std::vector<Sample>& sensed);
+  // What robots sensed in a step between two frames.
+  void publish(std::vector<Sample> sensed);
   void finish();
 
  private:
@@ -40,6 +42,7 @@ class DriveLink {
   std::int64_t start_ns_ = 0;
   double rate_hz_ = 0;
   int published_ = 0, of_this_world_ = 0;
+  std::int64_t shift_ns_ = 0;  // from stamps of this leg to those that go out
 };
 
 }  // namespace rubble

@@ -14,7 +14,8 @@ std::vector<std::string> adapt_to_driving(Scenario& scenario) {
     if (on) off.push_back(what);
     return on;
   };
-  CameraScenario& camera = scenario.camera;
+  MountedCamera& mounted = scenario.cameras.front();
+  CameraScenario& camera = mounted.camera;
   if (turn_off(camera.shutter.readout > 0, "rolling shutter")) camera.shutter.readout = 0;
   if (turn_off(camera.shutter.motion_blur, "motion blur")) camera.shutter.motion_blur = false;
   std::vector<std::string>& channels = camera.channels;
@@ -22,11 +23,10 @@ std::vector<std::string> adapt_to_driving(Scenario& scenario) {
     const auto at = std::find(channels.begin(), channels.end(), stream->name);
     if (turn_off(at != channels.end() && stream->needs_next, stream->name)) channels.erase(at);
   }
-  if (turn_off(scenario.event_camera.on, "event camera")) scenario.event_camera.on = false;
+  if (turn_off(mounted.event_camera.on, "event camera")) mounted.event_camera.on = false;
   // Robots carry theirs, along a way that a run goes again.
   if (scenario.robots.empty()) {
-    if (turn_off(!all_imus(scenario).empty(), "inertial units")) scenario.imu.on = false, scenario.imus.clear();
-    if (turn_off(!scenario.lidars.empty(), "LiDARs")) scenario.lidars.clear();
+    if (turn_off(!scenario.imus.empty(), "inertial units")) scenario.imus.clear();
     if (turn_off(!scenario.sensors.empty(), "other sensors")) scenario.sensors.clear();
   }
   scenario.outputs.pcd = scenario.outputs.kitti = false;
@@ -39,11 +39,15 @@ std::vector<std::string> adapt_to_driving(Scenario& scenario) {
   return off;
 }
 
-DriveLog::DriveLog(const Scenario& scenario) : scenario_(scenario) {}
+DriveLog::DriveLog(const Scenario& scenario, int steps_per_frame) : scenario_(scenario), steps_per_frame_(steps_per_frame) {}
 
 void DriveLog::add(const DrivenPose& pose) { poses_.push_back(pose); }
 
-double DriveLog::time(int frame) const { return double(frame) / scenario_.trajectory.rate_hz; }
+// Where there is a frame, to the bit that of the frame.
+double DriveLog::time(int step) const {
+  const double within = double(step % steps_per_frame_) / steps_per_frame_;
+  return (double(step / steps_per_frame_) + within) / scenario_.trajectory.rate_hz;
+}
 
 // As sample_trajectory() has it.
 std::int64_t DriveLog::stamp_ns(int frame) const {
@@ -55,22 +59,22 @@ std::int64_t DriveLog::stamp_ns(int frame) const {
 // waypoint's time. After the last pose the camera stands still.
 Vec3 DriveLog::velocity(int frame) const {
   const double t = double(stamp_ns(frame) - scenario_.start_ns) * 1e-9;
-  const int leg = t < time(frame) ? frame - 1 : frame;
-  if (leg + 1 >= frames()) return {};
-  const Vec3 step = poses_[std::size_t(leg) + 1].position - poses_[std::size_t(leg)].position;
-  return step * (1.0 / (time(leg + 1) - time(leg)));
+  const int step = frame * steps_per_frame_, leg = t < time(step) ? step - 1 : step;
+  if (leg + 1 >= steps()) return {};
+  const Vec3 way = poses_[std::size_t(leg) + 1].position - poses_[std::size_t(leg)].position;
+  return way * (1.0 / (time(leg + 1) - time(leg)));
 }
 
-// A last waypoint a little after the last frame: what comes after a frame is a leg on which the
-// camera stands, so that the last frame, too, is exactly at its waypoint.
+// A last waypoint a little after the last step: what comes after a step is a leg on which the
+// camera stands, so that a last frame, too, is exactly at its waypoint.
 Scenario DriveLog::scenario() const {
   Scenario whole = scenario_;
   std::vector<Waypoint>& waypoints = whole.trajectory.waypoints;
   waypoints.clear();
-  for (int k = 0; k <= frames() && frames() > 0; ++k) {
-    const DrivenPose& pose = poses_[std::size_t(std::min(k, frames() - 1))];
+  for (int k = 0; k <= steps() && steps() > 0; ++k) {
+    const DrivenPose& pose = poses_[std::size_t(std::min(k, steps() - 1))];
     Waypoint w;
-    w.t = k < frames() ? time(k) : (double(k) - 0.99) / whole.trajectory.rate_hz;
+    w.t = k < steps() ? time(k) : (double(k) - 0.99) / (whole.trajectory.rate_hz * steps_per_frame_);
     w.position = pose.position;
     w.rpy_deg = pose.rpy_deg;
     waypoints.push_back(w);

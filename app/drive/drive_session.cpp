@@ -15,7 +15,7 @@
 namespace rubble {
 namespace {
 
-constexpr int kLongestLeg = 9000;    // frames: five minutes; then a new leg goes on from there
+constexpr int kLongestLeg = 9000;    // steps: five minutes; then a new leg goes on from there
 constexpr std::chrono::seconds kNoticeTime{3};
 constexpr double kLeastLamp = 1, kMostLamp = 100000;  // unit: cd
 constexpr double kLeastFog = 0.005, kMostFog = 10;    // unit: 1/m
@@ -88,15 +88,15 @@ void DriveSession::enter(std::optional<std::uint64_t> seed) {
 
 void DriveSession::run() {
   const auto step_time = std::chrono::duration_cast<Clock::duration>(
-      std::chrono::duration<double>(1 / world_->scenario.trajectory.rate_hz));
+      std::chrono::duration<double>(1 / world_->step_hz()));
   Clock::time_point due = Clock::now(), counted = due;
   while (!quit_ && !stop_requested() && (request_.steps == 0 || steps_ < request_.steps)) {
     for (const std::string& heard : window_.poll(controls_)) say(heard);
     DriveInput input = controls_.take();
-    if (link_) link_->add_to(input, 1 / world_->scenario.trajectory.rate_hz);
+    if (link_) link_->add_to(input, 1 / world_->step_hz());
     for (const DriveAction action : input.actions) act(action);
     if (quit_) break;
-    if (!paused_ || std::exchange(one_step_, false)) {
+    if (std::exchange(one_step_, false) || (!paused_ && !waits(input))) {
       follow(input.trajectories);
       step(input);
     }
@@ -111,6 +111,12 @@ void DriveSession::run() {
   }
   end_leg();
   if (link_) link_->finish();
+}
+
+// Time begins with the first key: nobody wants what is before it. Programs that listen, and a number of steps, begin it at once.
+bool DriveSession::waits(const DriveInput& input) {
+  going_ = going_ || input.moves() || link_ || request_.steps > 0;
+  return leg_ && !going_;
 }
 
 void DriveSession::follow(const std::vector<JointTrajectoryCommand>& trajectories) {
@@ -128,15 +134,13 @@ void DriveSession::follow(const std::vector<JointTrajectoryCommand>& trajectorie
 
 // The world goes on to the time of the next frame; the first is of its start.
 void DriveSession::step_robot(const DriveInput& input) {
-  const double rate = world_->scenario.trajectory.rate_hz;
   if (!leg_) {
     leg_ = std::make_unique<DriveLeg>(*world_, folder_, ++legs_, false, listener());
   } else {
-    RobotWish wish;
-    wish.forward = input.forward, wish.yaw = input.yaw, wish.pitch = -input.pitch, wish.roll = input.roll;
-    wish.linear = input.linear, wish.angular = input.angular;
-    wish.speed = camera_->speed();
-    world_->robots->advance(wish, leg_->frames() / rate);
+    if (input.linear.y != 0) complaints_.note("/cmd_vel", "linear.y is left out: no robot moves sideways by it");
+    TeleopCommand asked = input;
+    asked.speed = camera_->speed();
+    world_->robots->advance(asked, leg_->next_time());
   }
   camera_->put(make_driven_pose(world_->robots->world_from_rig()));
 }
@@ -145,19 +149,20 @@ void DriveSession::step(const DriveInput& input) {
   if (world_->robots) {
     step_robot(input);
     leg_->step(camera_->pose());
+    if (link_ && !leg_->at_frame()) link_->publish(take_sensed());
     const Vec3& p = camera_->pose().position;
     picture_.track.push_back({map_frame_.column(p), map_frame_.row(p)});
     ++steps_;
     return;
   }
-  if (leg_ && leg_->frames() >= kLongestLeg) {
+  if (leg_ && leg_->steps() >= kLongestLeg) {
     end_leg();
     change_lamp_and_air();
   }
   if (!leg_)
     leg_ = std::make_unique<DriveLeg>(*world_, folder_, ++legs_, request_.record, listener());
   else
-    camera_->step(input, 1 / world_->scenario.trajectory.rate_hz);
+    camera_->step(input, 1 / world_->step_hz());
   leg_->step(camera_->pose());
   const Vec3& p = camera_->pose().position;
   picture_.track.push_back({map_frame_.column(p), map_frame_.row(p)});
@@ -166,12 +171,14 @@ void DriveSession::step(const DriveInput& input) {
 
 FrameListener DriveSession::listener() {
   if (!link_) return {};
-  return [this](const Frame& frame) {
-    const std::vector<Sample> sensed = world_->robots ? world_->robots->take_sensed() : std::vector<Sample>();
-    for (const Sample& sample : sensed)
-      if (const auto* scan = std::get_if<LidarScan>(&sample)) scan_ = *scan;
-    link_->publish(frame, sensed);
-  };
+  return [this](const Frame& frame) { link_->publish(frame, take_sensed()); };
+}
+
+std::vector<Sample> DriveSession::take_sensed() {
+  std::vector<Sample> sensed = world_->robots ? world_->robots->take_sensed() : std::vector<Sample>();
+  for (const Sample& sample : sensed)
+    if (const auto* reading = std::get_if<Reading>(&sample); reading && reading->scan) scan_ = reading->scan;
+  return sensed;
 }
 
 void DriveSession::end_leg() {
@@ -180,6 +187,7 @@ void DriveSession::end_leg() {
   print_out("%s/%s.lua\n", folder_.c_str(), leg_->name().c_str());
   std::fflush(stdout);
   leg_.reset();
+  going_ = false;
 }
 
 // A leg has one lamp and one air: what was driven so far is complete, and a new leg begins here.
@@ -225,6 +233,7 @@ void DriveSession::act(DriveAction action) {
       end_leg();
       return enter(world_->scenario.seed + 1);
     case DriveAction::pause:
+      if (leg_ && !going_ && !paused_) return void(going_ = true);
       paused_ = !paused_;
       return;
     case DriveAction::one_step:
@@ -242,7 +251,7 @@ void DriveSession::act(DriveAction action) {
       (action == DriveAction::contacts ? choice_.contacts : choice_.frames) ^= true;
       return;
     case DriveAction::scans:
-      if (!world_->robots || !link_) return say("echoes are those of scans that are published: a robot with a LiDAR, and --ros1 or --ros2");
+      if (!world_->robots || !link_) return say("echoes are those of scans that are published: a robot with a sensor that scans, and --ros1 or --ros2");
       choice_.scans = !choice_.scans;
       return;
     case DriveAction::cameras:
@@ -279,7 +288,7 @@ std::vector<PictureLine> DriveSession::draw_overlay() {
   if (choice_.hulls) overlay_->add_hulls(world_->pile, world, camera_->pose().position, lines);
   if (choice_.contacts && world) Overlay::add_contacts(*world, lines);
   if (choice_.frames && world) Overlay::add_frames(*world, lines);
-  if (choice_.scans) Overlay::add_scan(scan_, lines);
+  if (choice_.scans && scan_) Overlay::add_scan(*scan_, lines);
   if (choice_.voids) {
     try {
       if (voids_->take_news()) say("the voids are mapped");
@@ -322,7 +331,7 @@ std::vector<std::string> DriveSession::status() const {
                 s.lamp.on ? words("%.0f cd", s.lamp.intensity_cd).c_str() : "off",
                 s.air.fog_density > 0 ? words("%.3f 1/m", s.air.fog_density).c_str() : "off",
                 camera_->held_back() ? "   TOUCHES" : "",
-                paused_ ? "   PAUSED" : slowness_ == 4 ? "   TIME 1/4" : slowness_ == 16 ? "   TIME 1/16" : ""),
+                paused_ ? "   PAUSED" : !going_ ? "   A KEY STARTS TIME" : slowness_ == 4 ? "   TIME 1/4" : slowness_ == 16 ? "   TIME 1/16" : ""),
           words("x %.2f  y %.2f  z %.2f m   roll %.0f  pitch %.0f  yaw %.0f deg   %.0f steps/s   %s"
                 "   H: help",
                 pose.position.x, pose.position.y, pose.position.z, pose.rpy_deg.x, pose.rpy_deg.y,

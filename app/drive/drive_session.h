@@ -34,6 +34,8 @@ class DriveSession {
   void change_lamp_and_air();
   void end_leg();
   FrameListener listener();
+  std::vector<Sample> take_sensed();
+  bool waits(const DriveInput& input);
   void step(const DriveInput& input);
   void step_robot(const DriveInput& input);
   void follow(const std::vector<JointTrajectoryCommand>& trajectories);
@@ -61,11 +63,12 @@ class DriveSession {
   double rate_ = 0;    // steps a second that are reached
   bool help_ = false, paused_ = false, quit_ = false;
   bool one_step_ = false;  // although it is paused
+  bool going_ = false;     // somebody asked for something since this leg began
   int slowness_ = 1;       // of time
   OverlayChoice choice_;
   std::unique_ptr<Overlay> overlay_;  // of this world
   std::unique_ptr<VoidSurvey> voids_;  // likewise
-  LidarScan scan_;                    // the last
+  std::shared_ptr<const RangeScan> scan_;  // the last
   Complaints complaints_{[this](const std::string& line) { say(line); }};
   std::string notice_;
   Clock::time_point notice_until_;

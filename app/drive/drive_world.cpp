@@ -1,12 +1,14 @@
 #include "app/drive/drive_world.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "app/drive/drive_log.h"
 #include "app/drive/whole_paths.h"
 #include "app/planning/flight.h"
 #include "app/scene/build_scene.h"
+#include "app/sensors/camera_renderers.h"
 #include "app/support/print.h"
 #include "scripting/sandbox/script_file.h"
 
@@ -63,7 +65,7 @@ DriveLimits limits_of(const TrajectorySpec& spec) {
 }
 
 void refuse_several_cameras(const ResolvedMission& mission) {
-  if (mission.scenario.cameras.empty()) return;
+  if (!mission.scenario.names_cameras()) return;
   const SourceFile& script = mission.provenance.script;
   std::vector<Diagnostic> mistakes{{"", 0, "cameras", "several cameras cannot be driven",
                                     "a mission with `camera`", "`cameras`",
@@ -79,16 +81,22 @@ void enter_robots(const DriveRequest& request, const ResolvedMission& mission, R
                       "run the mission of the drive with `rubble run`; it records everything"});
   world.robots = with_lines_of_script(
       mission, [&] { return std::make_unique<RobotDrive>(mission, world.pile, request.robot, run); });
+  // The camera of the drive, and of the mission that is saved, is on the robot.
+  if (world.scenario.record_settling.on)
+    print_err("drive: without record_settling: the camera is on the robot, which starts when the pile rests\n");
+  world.scenario.record_settling = {};
   world.plan = Plan::ghost;
   world.entry = make_driven_pose(world.robots->world_from_rig());
 }
 
-void adapt(Scenario& scenario, const DriveRequest& request, const AssetLibrary& assets) {
-  resize_camera(scenario.camera, request.width, request.height);
+void adapt(DriveWorld& world, const DriveRequest& request) {
+  Scenario& scenario = world.scenario;
+  resize_camera(scenario.cameras.front().camera, request.width, request.height);
   // The mission that is saved lies elsewhere.
-  scenario = with_whole_paths(scenario, assets, !request.of.asset_packs.empty());
-  double& rate = scenario.trajectory.rate_hz;
-  if (rate < kLeastRate || rate > kMostRate) rate = TrajectorySpec{}.rate_hz;
+  scenario = with_whole_paths(scenario, world.assets, !request.of.asset_packs.empty());
+  const double rate = scenario.trajectory.rate_hz;
+  if (rate < kLeastRate) world.steps_per_frame = int(std::ceil(TrajectorySpec{}.rate_hz / rate));
+  if (rate > kMostRate) print_err("drive: %g frames a second are asked for: time goes as slowly as they are drawn\n", rate);
   for (const std::string& off : adapt_to_driving(scenario))
     print_err("drive: without %s, which needs the future path\n", off.c_str());
 }
@@ -118,19 +126,22 @@ std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
   } else {
     enter_robots(request, mission, run, *world);
   }
-  adapt(world->scenario, request, world->assets);
+  adapt(*world, request);
   if (!world->robots) check_entry(*world);
 
   run.progress.start("scene");
   // By hand there is no time for the reference; the saved mission keeps what was asked for.
   Scenario drawn = world->scenario;
-  drawn.camera.colour = ColourSpec();
+  drawn.cameras.front().camera.colour = ColourSpec();
   const Scene scene = world->robots ? world->robots->build_scene(drawn)
                                     : build_scene(drawn, world->assets, world->pile);
-  world->renderer = prepare_renderer(scene, drawn, context, world->threads, [&](double fraction) {
-    run.progress.update(fraction, "light");
-    go_on();
-  });
+  world->renderer = prepare_renderer(scene, drawn.cameras.front().camera.colour, context,
+                                     {world->threads,
+                                      [&](double fraction) {
+                                        run.progress.update(fraction, "light");
+                                        go_on();
+                                      },
+                                      {}});
   run.progress.finish("ready on " + context.info().renderer);
   return world;
 }

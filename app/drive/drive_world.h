@@ -15,6 +15,7 @@ namespace rubble {
 
 struct DriveWorld {
   Scenario scenario;                   // of the camera's size that was asked for, adapted to driving
+  int steps_per_frame = 1;             // more where frames are too rare to steer by
   Plan plan = Plan::ghost;             // whether the camera collides
   AssetLibrary assets;                 // of the mission
   PileState pile;                      // settled
@@ -26,6 +27,7 @@ struct DriveWorld {
   std::unique_ptr<Renderer> renderer;  // of the scene, lit
   int threads = 1;                     // at least 1
 
+  double step_hz() const { return scenario.trajectory.rate_hz * steps_per_frame; }
   const PileQueries& queries() const { return survey->geometry().queries; }  // of clearance
 };
 

@@ -9,6 +9,7 @@
 
 #include "app/formats/recording_formats.h"
 #include "io/scenes/pile_export.h"
+#include "kernel/structure/building.h"
 
 namespace rubble {
 namespace {
@@ -29,12 +30,19 @@ double triangles_of(const AssetLibrary& assets, int type) {
   return double(assets.meshes[std::size_t(type)]->levels.front().triangles.size());
 }
 
+// of_type: how many pieces each type has; expected numbers.
+struct PileCount : PileModelSize {
+  explicit PileCount(const AssetLibrary& assets) : of_type(assets.types.size()) {}
+  std::vector<double> of_type;
+};
+
 // Of a type or an assembly, as placements and mixes have it.
-void add(const AssetLibrary& assets, int index, double times, PileModelSize& size) {
+void add(const AssetLibrary& assets, int index, double times, PileCount& size) {
   const auto types = int(assets.types.size());
   if (index < types) {
     size.pieces += times;
     size.triangles += times * triangles_of(assets, index);
+    size.of_type[std::size_t(index)] += times;
     return;
   }
   for (const AssemblyLink& link : assets.assemblies[std::size_t(index - types)].links)
@@ -76,9 +84,8 @@ void add_surroundings(const SurroundingsSpec& s, PileModelSize& size) {
 }
 
 // The building's pieces, and what furnishes it: in each bay of each floor, or on each floor of a plan.
-void add_building(const PileScenario& pile, const AssetLibrary& assets, PileModelSize& size) {
-  for (std::size_t i = 0; i < assets.building_counts.size(); ++i)
-    add(assets, assets.building_first_type + int(i), assets.building_counts[i], size);
+void add_building(const PileScenario& pile, const AssetLibrary& assets, PileCount& size) {
+  for (const StructurePiece& piece : assets.structures->damaged.pieces) add(assets, assets.building_first_type + piece.type, 1, size);
   const BuildingSpec& b = pile.building;
   const double bays = b.planned() ? 1 : double(b.bays_x) * b.bays_y;
   const double storeys = b.planned() ? double(b.plan.heights.size()) : b.storeys;
@@ -87,7 +94,7 @@ void add_building(const PileScenario& pile, const AssetLibrary& assets, PileMode
 }
 
 PileModelSize size_of_pile(const Scenario& s, const AssetLibrary& assets) {
-  PileModelSize size;
+  PileCount size(assets);
   double weights = 0;
   for (const MixEntry& entry : assets.mix) weights += entry.weight;
   const double dropped = double(s.pile.layers) * s.pile.pieces_per_layer;
@@ -98,9 +105,10 @@ PileModelSize size_of_pile(const Scenario& s, const AssetLibrary& assets) {
   if (s.pile.building.given()) add_building(s.pile, assets, size);
   add_fines(s.fines, size);
   add_surroundings(s.surroundings, size);
-  size.types += double(assets.types.size());
-  for (std::size_t i = 0; i < assets.types.size(); ++i)
-    size.type_triangles += triangles_of(assets, int(i));
+  for (std::size_t i = 0; i < assets.types.size(); ++i) {
+    const double likely = std::min(1.0, size.of_type[i]);
+    size.types += likely, size.type_triangles += likely * triangles_of(assets, int(i));
+  }
   return size;
 }
 
@@ -133,7 +141,8 @@ double count_frames(const std::vector<RecordedSize>& cameras) {
 void add_recordings(const Scenario& s, const std::vector<RecordedSize>& cameras, Estimate& sizes) {
   for (const RecordingFormat& format : recording_formats()) {
     if (!is_wanted(format, s)) continue;
-    const bool apart = format.one_camera && !s.cameras.empty();
+    if (!format.beside.empty()) sizes[format.beside] = 30000;
+    const bool apart = format.one_camera && s.names_cameras();
     std::uint64_t& sum = sizes[apart ? kCamerasFolder : format.leaves];
     for (const RecordedSize& size : cameras) sum += std::uint64_t(format.estimate(size));
   }
@@ -158,7 +167,7 @@ Estimate estimate_outputs(const Scenario& s, const AssetLibrary& assets) {
   const PileModelSize pile = size_of_pile(s, assets);
   const std::vector<RecordedSize> recorded = sizes_of_recording(s, pile.pieces);
   sizes["pile.bin"] =
-      std::uint64_t(pile.pieces * kPieceBytes + count_building_pieces(s, assets) * kBondedPieceBytes + 2000);
+      std::uint64_t(pile.pieces * kPieceBytes + count_building_pieces(s.pile, assets) * kBondedPieceBytes + 2000);
   if (s.victims.count > 0) sizes["victims.json"] = std::uint64_t(s.victims.count) * 400;
   if (s.fines.amount > 0) sizes["fines.bin"] = std::uint64_t(size_of_fines(s.fines).bytes);
   sizes["manifest.json"] = std::uint64_t(count_frames(recorded) * 250 + kManifestBytes);
@@ -181,9 +190,9 @@ std::uint64_t estimate_bytes(const Scenario& s, const AssetLibrary& assets, bool
   return sum;
 }
 
-double count_building_pieces(const Scenario& scenario, const AssetLibrary& assets) {
-  PileModelSize size;
-  if (scenario.pile.building.given()) add_building(scenario.pile, assets, size);
+double count_building_pieces(const PileScenario& pile, const AssetLibrary& assets) {
+  PileCount size(assets);
+  if (pile.building.given()) add_building(pile, assets, size);
   return size.pieces;
 }
 

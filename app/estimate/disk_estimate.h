@@ -26,7 +26,7 @@ std::uint64_t estimate_bytes(const Scenario& scenario, const AssetLibrary& asset
                              bool pile_only = false);
 
 // Pieces of the mission's building and of what furnishes it, at most; 0 where there is none.
-double count_building_pieces(const Scenario& scenario, const AssetLibrary& assets);
+double count_building_pieces(const PileScenario& pile, const AssetLibrary& assets);
 
 // Of all files in a folder; 0 when it is not there.
 std::uint64_t count_bytes(const std::string& folder);

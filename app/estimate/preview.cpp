@@ -48,37 +48,37 @@ Speeds read_speeds() {
 
 // What of a run takes time.
 struct Parts {
-  double pieces, robot_seconds, runs, megapixels;
+  double pieces, robot_seconds, runs, megapixels, traced_megapixels;
 };
 
 Parts parts_of(const RunPreview& preview, bool settles) {
-  return {settles ? preview.pieces : 0, preview.robot_seconds, preview.frames > 0 ? 1.0 : 0.0, preview.megapixels};
+  return {settles ? preview.pieces : 0, preview.robot_seconds, preview.frames > 0 ? 1.0 : 0.0, preview.megapixels,
+          preview.traced_megapixels};
 }
 
 std::string whole(double number) { return std::to_string(std::llround(number)); }
 
 }  // namespace
 
-RunPreview preview_run(RunKind kind, const Scenario& s, const Scenario& pile_mission,
-                       const AssetLibrary& assets, const std::string& out) {
+RunPreview preview_run(RunKind kind, const Scenario& s, const AssetLibrary& assets, const std::string& out) {
   RunPreview preview;
-  const PileScenario& pile = pile_mission.pile;
+  const PileScenario& pile = s.pile;
   preview.pieces = double(pile.layers) * pile.pieces_per_layer + double(pile.placed.size()) +
-                   count_building_pieces(pile_mission, assets);
+                   count_building_pieces(pile, assets);
   if (kind != RunKind::settle) {
-    const std::vector<MountedCamera> cameras = all_cameras(s);
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-      const CameraScenario& camera = cameras[i].camera;
+    for (std::size_t i = 0; i < s.cameras.size(); ++i) {
+      const CameraScenario& camera = s.cameras[i].camera;
       const double frames = size_of_flight(s, i).frames;
       preview.frames += frames;
       const int samples = camera.sensor.pixel_samples;
-      preview.megapixels += frames * camera.width * camera.height / 1e6 * samples * samples *
-                            (camera.stereo_baseline > 0 ? 2 : 1);
+      const double drawn = frames * camera.width * camera.height / 1e6 * samples * samples * (camera.stereo_baseline > 0 ? 2 : 1);
+      if (camera.colour.quality == RenderQuality::reference)
+        preview.traced_megapixels += drawn * camera.colour.samples;
+      else
+        preview.megapixels += drawn;
     }
-    const double rate = cameras.front().rate_hz.value_or(s.trajectory.rate_hz);
+    const double rate = s.cameras.front().rate_hz.value_or(s.trajectory.rate_hz);
     preview.robot_seconds = double(s.robots.size()) * size_of_flight(s, 0).frames / rate;
-    preview.traced = s.camera.colour.quality == RenderQuality::reference;
-    if (preview.traced) preview.megapixels *= s.camera.colour.samples;
   }
   preview.collapses = pile.building.given();
   preview.bytes = estimate_bytes(s, assets, kind == RunKind::settle);
@@ -89,11 +89,12 @@ RunPreview preview_run(RunKind kind, const Scenario& s, const Scenario& pile_mis
   const Speeds speeds = read_speeds();
   const Parts parts = parts_of(preview, kind != RunKind::render);
   const Effort& piling = preview.collapses ? speeds.collapsing : speeds.settling;
-  const Effort& colouring = preview.traced ? speeds.tracing : speeds.drawing;
   if (piling.tells_of(parts.pieces) && speeds.driving.tells_of(parts.robot_seconds) &&
-      speeds.lighting.tells_of(parts.runs) && colouring.tells_of(parts.megapixels))
+      speeds.lighting.tells_of(parts.runs) && speeds.drawing.tells_of(parts.megapixels) &&
+      speeds.tracing.tells_of(parts.traced_megapixels))
     preview.seconds = piling.expect(parts.pieces) + speeds.driving.expect(parts.robot_seconds) +
-                      speeds.lighting.expect(parts.runs) + colouring.expect(parts.megapixels);
+                      speeds.lighting.expect(parts.runs) + speeds.drawing.expect(parts.megapixels) +
+                      speeds.tracing.expect(parts.traced_megapixels);
   return preview;
 }
 
@@ -134,7 +135,10 @@ void note_speed(const RunPreview& preview, const Progress& progress) {
   (preview.collapses ? speeds.collapsing : speeds.settling).note(of("settle"), parts.pieces);
   speeds.driving.note(of("robots"), parts.robot_seconds);
   speeds.lighting.note(of("flight") + of("scene"), parts.runs);
-  (preview.traced ? speeds.tracing : speeds.drawing).note(of("render") + of("record"), parts.megapixels);
+  // Of a run that has both nobody knows which took how long.
+  const double coloured = of("render") + of("record");
+  if (parts.traced_megapixels == 0) speeds.drawing.note(coloured, parts.megapixels);
+  if (parts.megapixels == 0) speeds.tracing.note(coloured, parts.traced_megapixels);
   CacheWriter writer;
   writer.put(speeds);
   DiskCache(DiskCache::usual_folder()).store("speeds", speeds_key(), writer.bytes());

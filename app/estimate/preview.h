@@ -13,17 +13,16 @@ namespace rubble {
 
 struct RunPreview {
   double pieces = 0, frames = 0;   // frames: 0 for a pile alone
-  double megapixels = 0;           // of all pictures that are drawn: of a stereo pair both, of a pixel all its samples
+  // Of all pictures that are drawn: of a stereo pair both, of a pixel all its samples. Each sample of a path-traced pixel is
+  // a pixel.
+  double megapixels = 0, traced_megapixels = 0;
   double robot_seconds = 0;        // simulated, of all robots together
   bool collapses = false;          // the pile is a building's
-  bool traced = false;             // pictures are path traced; each sample is a pixel
   std::uint64_t bytes = 0;         // at most
   std::uint64_t free = 0;          // on the disk of the output
   std::optional<double> seconds;   // about; none: nothing like it, as large as a twentieth, was run here yet
 };
-// pile: the mission whose pile is settled; of a `render` another one than `mission`.
-RunPreview preview_run(RunKind kind, const Scenario& mission, const Scenario& pile,
-                       const AssetLibrary& assets, const std::string& out);
+RunPreview preview_run(RunKind kind, const Scenario& mission, const AssetLibrary& assets, const std::string& out);
 
 // "1217 pieces, 121 frames; at most 1.2 GB (67 GB free), about 30 s by earlier runs"
 std::string describe(const RunPreview& preview);

@@ -3,6 +3,7 @@
 #include "io/state/fines_file.h"
 #include "kernel/base/hash.h"
 #include "kernel/fines/strew_fines.h"
+#include "kernel/geometry/fine_heaps.h"
 
 namespace rubble {
 namespace {
@@ -26,29 +27,30 @@ std::string describe_missing(const FinesSpec& spec, const Fines& fines) {
 
 }  // namespace
 
-std::string lay_fines(const Scenario& scenario, const AssetLibrary& assets, int threads, PileState& pile) {
-  if (scenario.fines.amount == 0) return {};
-  pile.fines = strew_fines(pile, assets.finest_meshes(), scenario.fines, {scenario.seed, threads, assets.terrain()});
-  return describe_missing(scenario.fines, pile.fines);
+std::string lay_fines(const FinesSpec& spec, std::uint64_t seed, const AssetLibrary& assets, int threads, PileState& pile) {
+  if (spec.amount == 0) return {};
+  pile.fines = strew_fines(pile, assets.finest_meshes(), spec, {seed, threads, assets.terrain()});
+  return describe_missing(spec, pile.fines);
 }
 
-std::uint64_t hash_fines_work(const Scenario& scenario, std::uint64_t pile) {
-  const FinesSpec& f = scenario.fines;
+std::uint64_t hash_fines_work(const FinesSpec& f, std::uint64_t seed, std::uint64_t pile) {
   if (f.amount == 0) return pile;
   StateHash hash;
-  hash.add(pile), hash.add(scenario.seed);
+  hash.add(pile), hash.add(seed);
   for (const int count : {f.amount, f.drifts, f.cables, f.pipes}) hash.add(std::int32_t(count));
   for (const double number : {f.grit, f.plaster, f.glass, f.paper, f.cloth, f.size[0], f.size[1], f.exponent})
     hash.add(number);
   return hash.digest();
 }
 
-void save_fines_of(const Scenario& scenario, const PileState& pile, const std::string& folder) {
-  if (scenario.fines.amount > 0) save_fines(pile.fines, folder + "/" + kFinesFile);
+void save_fines_of(const FinesSpec& spec, const PileState& pile, const std::string& folder) {
+  if (spec.amount > 0) save_fines(pile.fines, folder + "/" + kFinesFile);
 }
 
-void load_fines_of(const Scenario& scenario, const std::string& folder, PileState& pile) {
-  if (scenario.fines.amount > 0) pile.fines = load_fines(folder + "/" + kFinesFile, pile.pieces.size());
+void load_fines_of(const FinesSpec& spec, const std::string& folder, PileState& pile) {
+  if (spec.amount == 0) return;
+  pile.fines = load_fines(folder + "/" + kFinesFile, pile.pieces.size());
+  heap_fines(pile.fines);
 }
 
 }  // namespace rubble

@@ -34,25 +34,27 @@ double duration_of_settling(const Scenario& s) {
 }
 
 void count_scans(const Scenario& s, double duration, FlightSize& size) {
-  for (const LidarScenario& lidar : s.lidars) {
-    const LidarSpec spec = lidar.spec();
-    const double scans = std::floor(duration * spec.rate_hz) + 1;
-    size.scans += scans;
-    size.points += scans * spec.rays() * (spec.returns == LidarReturns::dual ? 2 : 1);
+  for (const SensorItem& sensor : s.sensors) {
+    if (!scans(sensor)) continue;
+    const double count = std::floor(duration * sensor.rate()) + 1;
+    size.scans += count;
+    size.points += count * sensor.figures->most_points();
   }
 }
 
 double rate_of_readings(const Scenario& s) {
   double rate = 0;
-  for (const SensorItem& sensor : s.sensors) rate += sensor.rate_hz;
+  for (const SensorItem& sensor : s.sensors)
+    if (!scans(sensor)) rate += sensor.rate();
   return rate;
 }
 
 // Of all together, and of the messages of other sensors, none of which is larger; unit: Hz
 double rate_of_imus(const Scenario& s) {
   double rate = 0;
-  for (const SensorItem& sensor : s.sensors) rate += sensor.rate_hz * double(sensor.figures->topics().size());
-  for (const ImuScenario& imu : all_imus(s)) rate += imu.model.rate_hz;
+  for (const SensorItem& sensor : s.sensors)
+    if (!scans(sensor)) rate += sensor.rate() * double(sensor.figures->topics().size());
+  for (const ImuScenario& imu : s.imus) rate += imu.model.rate_hz;
   return rate;
 }
 
@@ -65,7 +67,7 @@ double frames_of_settling(const Scenario& s, const MountedCamera& camera) {
 
 FlightSize size_of_flight(const Scenario& s, std::size_t camera) {
   FlightSize size;
-  const MountedCamera mounted = all_cameras(s)[camera];
+  const MountedCamera& mounted = s.cameras[camera];
   Scenario carried = s;
   if (mounted.ride.on()) carried.trajectory.ride.robot = mounted.ride.robot;
   TrajectorySpec path = flown_trajectory(carried);
@@ -90,7 +92,7 @@ FlightSize size_of_flight(const Scenario& s, std::size_t camera) {
   if (camera == 0) size.readings = size.frames * rate_of_readings(s) / path.rate_hz;
   if (camera == 0) count_scans(s, size.frames / path.rate_hz, size);
   if (!s.record_settling.on) return size;
-  size.frames += frames_of_settling(s, all_cameras(s)[camera]);
+  if (!mounted.ride.on()) size.frames += frames_of_settling(s, mounted);  // robots start when the pile rests
   if (camera == 0) count_scans(s, duration_of_settling(s), size);
   if (imu_rate > 0) size.imu_samples += duration_of_settling(s) * imu_rate + 1;
   return size;
@@ -98,7 +100,7 @@ FlightSize size_of_flight(const Scenario& s, std::size_t camera) {
 
 std::vector<RecordedSize> sizes_of_recording(const Scenario& scenario, double pieces) {
   std::vector<RecordedSize> sizes;
-  for (const MountedCamera& camera : all_cameras(scenario))
+  for (const MountedCamera& camera : scenario.cameras)
     sizes.push_back({camera, size_of_flight(scenario, sizes.size()),
                      PictureSize(camera, scenario.outputs.depth), 100 * pieces + 2e4});
   return sizes;

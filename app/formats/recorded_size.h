@@ -13,7 +13,7 @@ constexpr double kPictureOverhead = 2048;  // of a file and its line in a list; 
 
 // What is recorded of a flight: counts.
 struct FlightSize {
-  // At most; a mean where the pile decides. points: of LiDARs, with all their returns.
+  // At most; a mean where the pile decides. points: of the scans, with all their returns.
   double frames = 0, key_frames = 0, imu_samples = 0, scans = 0, points = 0, readings = 0;
 };
 // Of one of its cameras; other sensors are counted with the first.
@@ -38,6 +38,10 @@ class PictureSize {
   }
   double tum() const { return pixels_ * (3 + (measured_ ? 4 : 2)); }
   double euroc() const { return colours() / 3; }
+  // Left pictures and depth; of every sixteenth pixel a point.
+  double nerfstudio() const { return pixels_ * (3 + 2 + 15.0 / 16); }
+  // The masks of pieces share the pixels: a run in each column of eight pixels is a bad case.
+  double coco() const { return pixels_ * (3 + 1); }
   double frames() const {
     return colours() + pixels_ * ((measured_ ? 8 : 4) + ground_truth()) + 25 * events_;
   }
@@ -70,7 +74,7 @@ struct RecordedSize {
     return flight.frames * per_frame + flight.imu_samples * per_imu_sample + once;
   }
 };
-// At most, of LiDARs; unit: byte.
+// At most, of scans; unit: byte.
 inline double size_of_scans(const FlightSize& flight, double per_scan, double per_point) {
   return flight.scans * per_scan + flight.points * per_point;
 }

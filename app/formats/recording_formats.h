@@ -23,7 +23,13 @@ struct RecordingInputs {
   const Recording& recording;  // with one camera only for a format that holds one camera
   std::vector<int> frames;     // number of frames of each camera; empty: unknown
   std::string title;           // of the contact sheet
-  std::size_t camera = 0;      // for a format that holds one camera: its index in all_cameras()
+  std::size_t camera = 0;      // for a format that holds one camera: its index in the scenario
+};
+
+// Samples that a format has a place for, beside frames.
+struct HeldSamples {
+  bool imus = false, scans = false, readings = false, robots = false;
+  bool biases = false;  // of inertial units
 };
 
 struct RecordingFormat {
@@ -31,10 +37,12 @@ struct RecordingFormat {
   std::string leaves;      // file or folder in the run's folder: "mission.bag", "tum"
   bool is_folder = false;  // whether `leaves` is a folder
   bool OutputScenario::*wanted;
+  HeldSamples holds;
   std::unique_ptr<Recorder> (*make)(const std::string& path, const RecordingInputs& inputs);
   double (*estimate)(const RecordedSize& size);  // largest size for one camera; unit: byte
   bool one_camera = false;                       // whether it holds a single camera
-  bool of_sensors = false;                       // whether it is only there where the mission has `sensors`
+  bool of_sensors = false;                       // whether it is only there where a sensor gives numbers
+  std::string beside{};                          // a second, small file in the run's folder: "metadata.yaml"
 };
 
 // Whether the scenario asks for it.
@@ -42,6 +50,9 @@ bool is_wanted(const RecordingFormat& format, const Scenario& scenario);
 
 // In the order in which they receive a frame. docs/development/contributing.md describes how to add one.
 const std::vector<RecordingFormat>& recording_formats();
+
+// Throws InputError for a name that no format has.
+const RecordingFormat& find_recording_format(const std::string& name);
 
 // Options of ROS messages for this scenario, in files and live.
 RosOptions ros_options(const OutputScenario& outputs, const Recording& recording);

@@ -48,7 +48,7 @@ PileState load_pile_of(const FinishedRun& saved) {
   if (found != stated)
     throw InputError({path, 0, "", "is not the pile of the manifest beside it",
                       "the state hash " + stated, found, ""});
-  load_fines_of(stated_scenario(saved.manifest.provenance), saved.folder, pile);
+  load_fines_of(stated_scenario(saved.manifest.provenance).fines, saved.folder, pile);
   return pile;
 }
 

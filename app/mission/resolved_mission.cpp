@@ -70,7 +70,8 @@ ResolvedMission resolve_mission(const RunRequest& request, RunKind kind, RunCont
   const Mission loaded = load_and_print(request);
   ResolvedMission mission;
   mission.provenance = make_provenance(kind, loaded, mission_options(request));
-  mission.scenario = mission.pile_scenario = loaded.scenario;
+  mission.scenario = loaded.scenario;
+  mission.pile_seed = loaded.scenario.seed;
   load_with_progress(mission, context, [&] { return load_assets(loaded, request.asset_packs); });
   mission.provenance.assets = mission.assets.contents;
   mission.provenance.robots = mission.assets.robots;
@@ -83,8 +84,7 @@ ResolvedMission resolve_pile(const Provenance& provenance, const std::vector<std
   ResolvedMission mission;
   mission.provenance = provenance;
   mission.scenario = stated_scenario(provenance);
-  mission.pile_scenario =
-      provenance.pile_from ? stated_scenario(*provenance.pile_from) : mission.scenario;
+  mission.pile_seed = provenance.pile_from ? stated_scenario(*provenance.pile_from).seed : mission.scenario.seed;
   load_with_progress(mission, context, [&] { return load_assets(provenance, pack_folders); });
   return mission;
 }
@@ -104,14 +104,15 @@ ResolvedMission resolve_render(const RunRequest& request, const FinishedRun& sav
   const std::shared_ptr<const Provenance> pile_from =
       source.pile_from ? source.pile_from : std::make_shared<const Provenance>(source);
   ResolvedMission mission;
-  mission.pile_scenario = stated_scenario(*pile_from);
-  adopt_pile(loaded.scenario, mission.pile_scenario);
+  const Scenario pile_source = stated_scenario(*pile_from);
+  adopt_pile(loaded.scenario, pile_source);
+  mission.pile_seed = pile_source.seed;
   mission.scenario = loaded.scenario;
   mission.provenance = make_provenance(RunKind::render, loaded, mission_options(request));
   mission.provenance.assets = pile_from->assets;
   mission.provenance.pile_from = pile_from;
   load_with_progress(mission, context, [&] { return load_assets_of(saved, request.asset_packs); });
-  add_robot_files(mission.scenario, {std::filesystem::path(request.mission).parent_path().string()}, mission.assets);
+  add_robot_files(mission.scenario.robots, {std::filesystem::path(request.mission).parent_path().string()}, mission.assets);
   mission.provenance.robots = mission.assets.robots;
   return mission;
 }
@@ -141,12 +142,12 @@ ResolvedMission resolve_unfinished(const RunFolder& folder,
 
 Pile make_pile(const ResolvedMission& mission) {
   return with_lines_of_script(
-      mission, [&] { return generate_pile(build_pile_spec(mission.pile_scenario, mission.assets)); });
+      mission, [&] { return generate_pile(build_pile_spec(mission.scenario.pile, mission.pile_seed, mission.assets)); });
 }
 
 Pile make_laid_pile(const ResolvedMission& mission, const PileState& state) {
   Pile pile = make_pile(mission);
-  list_victims(state, mission.pile_scenario.victims.count, pile);
+  list_victims(state, mission.scenario.victims.count, pile);
   return pile;
 }
 

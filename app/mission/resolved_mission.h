@@ -2,6 +2,7 @@
 // every key, every asset.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,8 @@ namespace rubble {
 
 struct ResolvedMission {
   Provenance provenance;   // from which all the rest can be made again
-  Scenario scenario;       // of this run
-  Scenario pile_scenario;  // of the run that settled the pile: another one for a `render`
+  Scenario scenario;       // of a `render`, what settled the pile is that of the other run
+  std::uint64_t pile_seed = 0;  // of all that settled the pile, and of its fines
   AssetLibrary assets;     // of the pile
 };
 

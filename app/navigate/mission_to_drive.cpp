@@ -4,16 +4,18 @@
 #include <nlohmann/json.hpp>
 
 #include "app/mission/scenario_lua.h"
+#include "app/navigate/range_scanner.h"
 #include "io/base/atomic_file.h"
 #include "kernel/base/portable_math.h"
+#include "scripting/robots/robot_kind.h"
 
 namespace rubble {
 namespace {
 
 constexpr double kDegree = 57.29577951308232;
 constexpr char kRobot[] = "crawler";
-// Clear of its body and load, which a LiDAR of a mission sees and that of the benchmark does not; unit: m.
-constexpr double kLidarHeight = 0.4;
+// Clear of its body and load, which a scanner of a mission sees and that of the benchmark does not; unit: m.
+constexpr double kScannerHeight = 0.4;
 
 std::string goal_options(const std::vector<Vec3>& waypoints) {
   std::string text;
@@ -30,16 +32,15 @@ std::string goal_options(const std::vector<Vec3>& waypoints) {
 Scenario make_mission_to_drive(const NavigationWorld& world) {
   Scenario scenario = world.mission().scenario;
   const Vec3 ahead = world.start().rotation.rotate({1, 0, 0});
-  RobotItem robot;
-  robot.model = RobotKind::crawler, robot.name = kRobot;
+  RobotItem robot = make_robot_item("crawler");
+  robot.name = kRobot;
   robot.position = world.start().translation, robot.rpy_deg = {0, 0, kDegree * portable::atan2(ahead.y, ahead.x)};
   scenario.robots = {robot};
   scenario.robot_run = {};
-  LidarScenario lidar;
-  lidar.name = "points", lidar.model = LidarModel::os0, lidar.channels = 32, lidar.columns = 512;
-  lidar.rate_hz = 1 / world.rules().period;
-  lidar.ride.robot = kRobot, lidar.position = {0, 0, kLidarHeight};
-  scenario.lidars = {lidar};
+  scenario.record_settling = {};  // its camera is on the robot
+  SensorItem scanner = make_range_scanner(world.rules(), "points");
+  scanner.ride.robot = kRobot, scanner.position = {0, 0, kScannerHeight};
+  scenario.sensors = {scanner};
   scenario.trajectory = {};
   scenario.trajectory.rate_hz = 10;
   scenario.trajectory.ride.robot = kRobot, scenario.trajectory.ride.position = {0.3, 0, 0.3};

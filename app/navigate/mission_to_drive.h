@@ -1,4 +1,4 @@
-// A pile of the navigation benchmark as a mission for `rubble drive`: the crawler stands before the void with its LiDAR,
+// A pile of the navigation benchmark as a mission for `rubble drive`: the crawler stands before the void with its scanner,
 // and is driven by whoever listens to its topics (docs/explanation/autonomy.md).
 #pragma once
 

@@ -20,7 +20,7 @@ struct NavigationRules {
   double stuck_time = 30;      // with a planner: within stuck_distance for so long, and it gives up; unit: s
   double stuck_distance = 0.5;   // unit: m
   double waypoint_radius = 0.6;  // of the base from a waypoint: the next one is driven to; unit: m
-  double lidar_height = 0.35;  // above the ground under the robot; unit: m
+  double scanner_height = 0.35;  // above the ground under the robot; unit: m
   double voxel = 0.05;         // of the robot's map; unit: m
   int hits = 2;                // echoes that make a cell of the map occupied
 };

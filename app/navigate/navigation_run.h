@@ -1,6 +1,6 @@
 // One mission of the navigation benchmark: MRPT's reactive navigator drives the crawler, in lock-step.
 //
-//   RobotRun (240 Hz) -> scan of the last period, de-skewed -> ObstacleMap -> ReactiveNavigator -> tracks
+//   Session (240 Hz) -> scan of the last period, de-skewed -> ObstacleMap -> ReactiveNavigator -> tracks
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ struct NavigationScore {
   double slowest = 0;         // of these times; unit: s
 };
 
-// seed: of the LiDAR's noise. cache_folder: as NavigatorOptions. Throws InputError where the robot has no room.
+// seed: of the scanner's noise. cache_folder: as NavigatorOptions. Throws InputError where the robot has no room.
 NavigationScore navigate(const NavigationWorld& world, std::uint64_t seed, const std::string& cache_folder);
 
 }  // namespace rubble

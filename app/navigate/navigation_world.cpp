@@ -38,7 +38,7 @@ struct NavigationWorld::Door {
 NavigationWorld::NavigationWorld(const ResolvedMission& mission, const PileState& pile, const NavigationRules& rules,
                                  int threads)
     : rules_(rules), mission_(mission), pile_(pile), threads_(threads),
-      lidar_world_(std::make_shared<LidarWorld>(build_scene(mission.pile_scenario, mission.assets, pile))),
+      ray_world_(std::make_shared<RayWorld>(build_scene(mission.scenario, mission.assets, pile))),
       queries_(pile, mission.assets.finest_meshes()), map_(make_map(mission, pile, rules.radius, threads)) {
   const VoxelGrid& grid = map_.space.grid;
   const Vec3 around{kAround, kAround, 0};

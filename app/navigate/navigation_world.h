@@ -13,7 +13,7 @@
 #include "kernel/model/pile_state.h"
 #include "kernel/queries/queries.h"
 #include "kernel/voids/void_map.h"
-#include "render/lidar/lidar_world.h"
+#include "render/rays/ray_world.h"
 
 namespace rubble {
 
@@ -26,7 +26,7 @@ class NavigationWorld {
   const NavigationRules& rules() const { return rules_; }
   const ResolvedMission& mission() const { return mission_; }
   const PileState& pile() const { return pile_; }
-  const std::shared_ptr<LidarWorld>& lidar_world() const { return lidar_world_; }
+  const std::shared_ptr<RayWorld>& ray_world() const { return ray_world_; }
   int threads() const { return threads_; }
 
   const Pose& start() const { return start_; }  // of the robot's base: on the ground, facing an entrance
@@ -55,7 +55,7 @@ class NavigationWorld {
   const ResolvedMission& mission_;
   const PileState& pile_;
   int threads_;
-  std::shared_ptr<LidarWorld> lidar_world_;
+  std::shared_ptr<RayWorld> ray_world_;
   PileQueries queries_;
   VoidMap map_;
   Aabb bounds_;

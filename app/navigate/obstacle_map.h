@@ -1,4 +1,4 @@
-// The robot's own map: which cells of space its LiDAR saw something in.
+// The robot's own map: which cells of space its scanner saw something in.
 #pragma once
 
 #include <cstdint>

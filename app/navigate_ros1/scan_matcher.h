@@ -1,7 +1,7 @@
 // Corrects where a robot thinks that it is by what it sees: the pose near a guess at which most points of a scan fall onto
 // what was seen before (correlative scan matching; Olson 2009, "Real-time correlative scan matching").
 //
-// Seen from above: the rings of a LiDAR move with it, and in a map of three dimensions they would be found again best
+// Seen from above: the rings of a scanner move with it, and in a map of three dimensions they would be found again best
 // where the robot was.
 #pragma once
 

@@ -308,9 +308,9 @@ std::string TopicNavigator::describe_silence() const {
                : "no transform from " + options_.fixed_frame + " to " + options_.base_frame +
                      " came on /tf: name other frames by `--fixed-frame` and `--base-frame`";
   if (report_.clouds == 0)
-    return "poses came, and no cloud or scan: has the robot a LiDAR, and is its topic called otherwise (`--topic TOPIC`, "
+    return "poses came, and no cloud or scan: does the robot scan, and is its topic called otherwise (`--topic TOPIC`, "
            "`--sensor scan`)? `rostopic list` shows the topics that there are";
-  if (report_.clouds == report_.clouds_empty) return "clouds came without one finite point: the LiDAR sees nothing";
+  if (report_.clouds == report_.clouds_empty) return "clouds came without one finite point: the scanner sees nothing";
   if (!waiting_.empty() && !frames_.find(base_frame_, waiting_.front().frame))
     return "no chain of transforms leads from " + base_frame_ + " to " + waiting_.front().frame +
            ", the frame of the clouds: /tf_static must have one";

@@ -1,4 +1,4 @@
-// Drives a robot to a goal by what it says over topics: poses, frames, and what a LiDAR or scanner sees.
+// Drives a robot to a goal by what it says over topics: poses, frames, and what a scanner in three dimensions or in two sees.
 //
 //   cloud -> without motion during the scan -> level with the ground -> matched to the map -> Pilot -> velocity
 //

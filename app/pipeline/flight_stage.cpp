@@ -33,16 +33,15 @@ FlightPlan resolve(const ResolvedMission& mission, PileSurvey& survey, RunFolder
   return plan;
 }
 
-// flight: of the cameras of `flown`.
-void warn_of_cameras_inside(const ResolvedMission& mission, const Scenario& flown,
-                            const RigFlight& flight, const PileState& pile, RunContext& context) {
-  const std::vector<MountedCamera> cameras = all_cameras(flown);
+void warn_of_cameras_inside(const ResolvedMission& mission, const RigFlight& flight, const PileState& pile,
+                            RunContext& context) {
+  const std::vector<MountedCamera>& cameras = mission.scenario.cameras;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     std::vector<Vec3> positions;
     for (const Pose& pose : flight.cameras[i].world_from_camera) positions.push_back(pose.translation);
     const auto warning = find_camera_inside(mission.assets, pile, positions);
     if (!warning) continue;
-    const std::string who = flown.cameras.empty() ? "" : "camera `" + cameras[i].name + "`: ";
+    const std::string who = !cameras[i].named ? "" : "camera `" + cameras[i].name + "`: ";
     context.warnings.push_back(who + *warning);
   }
 }
@@ -69,20 +68,16 @@ Metrics measure_voids(const ResolvedMission& mission, PileSurvey& survey, const 
   return metrics;
 }
 
-PlannedFlight plan_flight(const ResolvedMission& mission, const SettledPile& pile,
+std::vector<Leg> plan_flight(const ResolvedMission& mission, const SettledPile& pile,
                           const DrivenRobots& robots, PileSurvey& survey, RunFolder& folder, RunContext& context) {
   const FlightPlan plan = resolve(mission, survey, folder, context);
   survey.forget_voids();
-  PlannedFlight flight;
-  flight.flown = mission.scenario;
-  flight.flown.trajectory = plan.trajectory;
-  const std::shared_ptr<const MotionPath> ride = robots.readings.ride;
-  flight.legs = with_lines_of_script(
-      mission, [&] { return plan_legs(flight.flown, ride ? ride : plan.path, pile.track, robots.readings); });
-  if (flight.flown.record_settling.on && flight.legs.size() == 1)
+  std::vector<Leg> legs = with_lines_of_script(
+      mission, [&] { return plan_legs(mission.scenario, plan, pile.track, robots.readings); });
+  if (mission.scenario.record_settling.on && legs.size() == 1)
     context.warnings.push_back("record_settling: the pile rests from the start: there is no settling to record");
-  warn_of_cameras_inside(mission, flight.flown, flight.legs.back().flight, pile.state, context);
-  return flight;
+  warn_of_cameras_inside(mission, legs.back().flight, pile.state, context);
+  return legs;
 }
 
 }  // namespace rubble

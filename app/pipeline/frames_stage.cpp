@@ -1,9 +1,9 @@
 // The stage from a planned flight over a settled pile to recorded frames.
-#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "app/control/robot_senses.h"
+#include "app/formats/class_labels.h"
 #include "app/measures/frame_watch.h"
 #include "app/pipeline/legs.h"
 #include "app/pipeline/live.h"
@@ -11,8 +11,8 @@
 #include "app/pipeline/stages.h"
 #include "app/provenance/frame_journal.h"
 #include "app/scene/build_scene.h"
+#include "app/sensors/camera_renderers.h"
 #include "app/sensors/exact_depth.h"
-#include "app/sensors/reading_sensor.h"
 #include "app/sensors/sensor_suite.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
@@ -22,27 +22,17 @@
 #include "kernel/base/hash.h"
 #include "kernel/base/system/disk_cache.h"
 #include "render/gl/gl_context.h"
-#include "render/renderer.h"
 #include "render/view/drawn_by.h"
 
 namespace rubble {
 namespace {
 
 // labels.csv: what the numbers of the label channel mean.
-void write_legend(const ResolvedMission& mission, RunFolder& folder) {
-  if (!has_channel(mission.scenario, "label")) return;
+void write_legend(const std::vector<std::string>& names, RunFolder& folder) {
   std::string text = "label,name\n";
-  const std::vector<std::string> names = label_names(mission.scenario, mission.assets);
   for (std::size_t i = 0; i < names.size(); ++i) text += std::to_string(i) + "," + csv_text(names[i]) + "\n";
   write_text_file(folder.file("labels.csv"), text);
   folder.add("labels.csv");
-}
-
-// What the contact sheet says at its top.
-std::string title_of(const ResolvedMission& mission, const PileState& pile) {
-  return std::filesystem::path(mission.provenance.script.path).stem().string() + "   seed " +
-         std::to_string(mission.scenario.seed) + "   " + std::to_string(pile.pieces.size()) +
-         " pieces   state " + hex64(pile.state_hash());
 }
 
 std::map<std::string, std::string> describe_environment(const GlInfo& info, int threads) {
@@ -55,19 +45,15 @@ std::map<std::string, std::string> describe_environment(const GlInfo& info, int 
 
 std::vector<std::string> names_of_cameras(const Scenario& scenario) {
   std::vector<std::string> names;
-  for (const MountedCamera& camera : scenario.cameras) names.push_back(camera.name);
+  for (const MountedCamera& camera : scenario.cameras)
+    if (camera.named) names.push_back(camera.name);
   return names;
 }
 
-std::vector<std::string> names_of_lidars(const Scenario& scenario) {
+// Their channels among the hashes.
+std::vector<std::string> channels_of_sensors(const Scenario& scenario) {
   std::vector<std::string> names;
-  for (const LidarScenario& lidar : scenario.lidars) names.push_back(lidar.name);
-  return names;
-}
-
-std::vector<std::string> names_of_sensors(const Scenario& scenario) {
-  std::vector<std::string> names;
-  for (const SensorItem& sensor : scenario.sensors) names.push_back(sensor.name);
+  for (const SensorItem& sensor : scenario.sensors) names.push_back(sensor.name + (scans(sensor) ? "/points" : "/reading"));
   return names;
 }
 
@@ -90,16 +76,6 @@ struct FrameSinks {
   int frames = 0;  // so far
 };
 
-RenderOptions render_options(const Scenario& scenario, int threads,
-                             const std::function<void(double)>& on_image) {
-  RenderOptions options;
-  options.threads = threads;
-  options.colour = all_cameras(scenario).front().camera.colour;
-  options.image_progress = on_image;
-  options.cache_folder = DiskCache::usual_folder();
-  return options;
-}
-
 // What there is to be seen: the settled pile, and robots, which start with the flight.
 struct Seen {
   const SettledPile& pile;
@@ -108,50 +84,52 @@ struct Seen {
 
 // The sensors on one leg, with the scene that they see.
 struct PreparedLeg {
-  std::unique_ptr<Renderer> renderer;
+  std::unique_ptr<CameraRenderers> renderers;
   std::unique_ptr<SensorSuite> sensors;
   std::vector<std::unique_ptr<ExactDepth>> depths;  // by camera; none: as it is drawn
 };
 
 // The scene as sensors have it while the robots are driven, when nobody knows what will move.
-Scene build_felt_scene(const Leg& leg, const ResolvedMission& mission, const Seen& seen) {
+Scene build_felt_scene(const ResolvedMission& mission, const Seen& seen) {
   const Track& track = seen.robots.moved.track;
-  return build_live_scene(leg.scenario, mission.assets, seen.pile.state, seen.robots.moved,
-                          [&track, start = leg.scenario.start_ns](int id, std::int64_t stamp_ns) {
+  return build_live_scene(mission.scenario, mission.assets, seen.pile.state, seen.robots.moved, seen.robots.start_ns,
+                          [&track, start = seen.robots.start_ns](int id, std::int64_t stamp_ns) {
                             return pose_in_track(track, id, stamp_ns - start);
                           });
 }
 
-// What a function is told of colours is drawn while the robot is driven: the recorded pictures are lit in the same way.
-bool senses_colours(const Scenario& scenario) {
-  for (const MountedCamera& camera : all_cameras(scenario))
+// What a function is told of colours is drawn while the robot is driven, and so is what a person sees: the recorded pictures
+// are lit in the same way.
+bool is_lit_live(const Scenario& scenario) {
+  if (scenario.robot_run.live_light) return true;
+  for (const MountedCamera& camera : scenario.cameras)
     if (is_sensed(scenario, colour_sense(camera.name))) return true;
   return false;
 }
 
+// Robots start with the flight.
 Scene build_leg_scene(const Leg& leg, const ResolvedMission& mission, const Seen& seen) {
   const PileState& pile = seen.pile.state;
-  if (leg.window) {
-    return build_moving_scene(leg.scenario, mission.assets, pile, seen.pile.track, *leg.window,
-                              leg.zero_ns);
-  }
-  if (seen.robots.moved.empty()) return build_scene(leg.scenario, mission.assets, pile);
-  if (senses_colours(leg.scenario)) return build_felt_scene(leg, mission, seen);
-  return build_robot_scene(leg.scenario, mission.assets, pile, seen.robots.moved,
-                           leg.scenario.start_ns);
+  const Scenario& scenario = mission.scenario;
+  if (!leg.window && !seen.robots.moved.empty())
+    return is_lit_live(scenario) ? build_felt_scene(mission, seen)
+                                 : build_robot_scene(scenario, mission.assets, pile, seen.robots.moved, seen.robots.start_ns);
+  Scene scene = leg.window ? build_moving_scene(scenario, mission.assets, pile, seen.pile.track, *leg.window, leg.zero_ns)
+                           : build_scene(scenario, mission.assets, pile);
+  scene.start_ns = leg.flight.start_ns;
+  return scene;
 }
 
 // What a function is told of depth is measured by rays: the recorded frames of its camera have the same.
-std::vector<std::unique_ptr<ExactDepth>> make_told_depths(const Leg& leg, const ResolvedMission& mission, const Seen& seen,
-                                                          int threads) {
-  const std::vector<MountedCamera> cameras = all_cameras(leg.scenario);
+std::vector<std::unique_ptr<ExactDepth>> make_told_depths(const ResolvedMission& mission, const Seen& seen, int threads) {
+  const std::vector<MountedCamera>& cameras = mission.scenario.cameras;
   std::vector<std::unique_ptr<ExactDepth>> depths(cameras.size());
-  std::shared_ptr<LidarWorld> world;
+  std::shared_ptr<RayWorld> world;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     // Rows of a shutter are drawn each at its own time.
-    if (!is_sensed(leg.scenario, cameras[i].name) || cameras[i].camera.shutter.readout > 0) continue;
-    if (!world) world = std::make_shared<LidarWorld>(build_felt_scene(leg, mission, seen));
-    depths[i] = std::make_unique<ExactDepth>(cameras[i], camera_key(leg.scenario, cameras[i]), world, threads);
+    if (!is_sensed(mission.scenario, cameras[i].name) || cameras[i].camera.shutter.readout > 0) continue;
+    if (!world) world = std::make_shared<RayWorld>(build_felt_scene(mission, seen));
+    depths[i] = std::make_unique<ExactDepth>(cameras[i], world, threads);
   }
   return depths;
 }
@@ -162,29 +140,30 @@ PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Se
   context.progress.start(leg.window ? "settling scene" : "scene");
   PreparedLeg prepared;
   const Scene scene = build_leg_scene(leg, mission, seen);
-  prepared.renderer = prepare_renderer(
-      scene, leg.scenario, gl, context.threads(),
-      [&](double fraction) { context.progress.update(fraction, "light"); },
-      [&](double fraction) { taking.report(fraction, folder, context); });
+  const CameraRendering rendering{context.threads(), [&](double fraction) { context.progress.update(fraction, "light"); },
+                                  [&](double fraction) { taking.report(fraction, folder, context); }};
+  prepared.renderers =
+      std::make_unique<CameraRenderers>(scene, mission.scenario.cameras, std::vector<std::size_t>(), gl, rendering);
   const bool felt = !leg.window && !seen.robots.moved.empty();
+  static const RobotReadings nothing_driven;
   std::optional<Scene> felt_scene;
-  if (felt && (!leg.scenario.lidars.empty() || needs_rays(leg.scenario.sensors))) felt_scene = build_felt_scene(leg, mission, seen);
+  if (felt && casts_rays(mission.scenario.sensors)) felt_scene = build_felt_scene(mission, seen);
   prepared.sensors = std::make_unique<SensorSuite>(
-      leg.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before}, felt_scene ? *felt_scene : scene,
-      *prepared.renderer, context.threads(), seen.robots.readings);
-  if (felt) prepared.depths = make_told_depths(leg, mission, seen, context.threads());
+      mission.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before}, felt_scene ? *felt_scene : scene,
+      *prepared.renderers, context.threads(), leg.window ? nothing_driven : seen.robots.readings);
+  if (felt) prepared.depths = make_told_depths(mission, seen, context.threads());
   context.progress.finish("ready on " + gl.info().renderer);
   return prepared;
 }
 
 // Takes every sample of a leg in order, notes the hashes of frames, and hands it to the recorders.
-void take_samples(PreparedLeg& prepared, const Leg& leg, FrameSinks& sinks, const RunFolder& folder,
+void take_samples(PreparedLeg& prepared, const Scenario& scenario, const Leg& leg, FrameSinks& sinks, const RunFolder& folder,
                   RunContext& context, Taking& taking, RecordedFrames& recorded) {
   SensorSuite& sensors = *prepared.sensors;
   taking.frame = 0;
   taking.frames = sensors.count_frames();
   std::vector<std::string> carriers;
-  for (const MountedCamera& camera : all_cameras(leg.scenario))
+  for (const MountedCamera& camera : scenario.cameras)
     carriers.push_back(camera.ride.on() ? camera.ride.robot + "/" + camera.ride.link : "");
   DepthMetrics depth(std::move(carriers));
   throw_if_stopped(folder.path());
@@ -195,9 +174,7 @@ void take_samples(PreparedLeg& prepared, const Leg& leg, FrameSinks& sinks, cons
       recorded.hashes.add_robot(*robot);
     } else if (const auto* values = std::get_if<Reading>(&*sample)) {
       recorded.hashes.add_reading(*values);
-    } else if (const auto* scan = std::get_if<LidarScan>(&*sample)) {
-      recorded.hashes.add_lidar(*scan);
-      throw_if_stopped(folder.path());
+      if (values->scan) throw_if_stopped(folder.path());
     } else {
       Frame& frame = std::get<Frame>(*sample);
       if (!prepared.depths.empty() && prepared.depths[std::size_t(frame.sensor)])
@@ -226,37 +203,33 @@ std::vector<int> count_frames(const std::vector<Leg>& legs, std::size_t count) {
   return frames;
 }
 
-void finish_recording(const ResolvedMission& mission, const RecorderSet& set, RecordingQueue& queue,
+void finish_recording(const ResolvedMission& mission, const Legend& legend, const RecorderSet& set, RecordingQueue& queue,
                       RunFolder& folder, RunContext& context) {
   context.progress.start("record");
   queue.finish();
   for (const std::string& name : set.names) folder.add(name);
-  write_legend(mission, folder);
+  if (has_channel(mission.scenario, "label")) write_legend(legend.labels, folder);
   folder.hash_files(context.threads());
   context.progress.finish(std::to_string(set.names.size()) + " files");
 }
 
-// Links follow the pieces, as their numbers do.
 void add_robots(const DrivenRobots& robots, std::uint16_t label, Recording& recording) {
   recording.mount = robots.mount;
-  for (const RobotModel& model : robots.moved.models)
-    for (const RobotLink& link : model.links)
-      recording.legend.pieces.push_back({label, model.name + "/" + link.name});
+  for (const RobotModel& model : robots.moved.models) add_links(model, label, recording.legend);
 }
 
 // Frames into files, until the last file is complete.
-void record(const PlannedFlight& flight, const ResolvedMission& mission, const Seen& seen,
+void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const Seen& seen,
             GlContext& gl, RunFolder& folder, RunContext& context, RecordedFrames& recorded) {
   const PileState& pile = seen.pile.state;
-  const std::vector<Leg>& legs = flight.legs;
   Taking taking;
   PreparedLeg prepared = prepare_leg(legs.front(), mission, seen, {}, gl, folder, context, taking);
-  Recording recording = describe_recording(flight.flown, mission.assets, pile, seen.robots.records);
-  add_robots(seen.robots, std::uint16_t(kFirstAssetLabel + mission.assets.types.size()), recording);
-  RecorderSet set = make_recorders(
-      {flight.flown, recording, count_frames(legs, legs.size()), title_of(mission, pile)}, folder.path());
+  Recording recording = describe_recording(mission.scenario, mission.assets, pile, seen.robots.records);
+  add_robots(seen.robots, ClassLabels(mission.scenario, mission.assets.types).of_robots(), recording);
+  RecorderSet set = make_recorders({mission.scenario, recording, count_frames(legs, legs.size()),
+                                    recording_title(mission.provenance.script.path, mission.scenario.seed, pile)}, folder.path());
   folder.expect(set.names);
-  add_live_recorders(set, context.options, ros_options(flight.flown.outputs, recording));
+  add_live_recorders(set, context.options, ros_options(mission.scenario.outputs, recording));
   RecordingQueue queue(std::move(set.recorders));
   FrameSinks sinks{queue, FrameJournal(folder.frames_file()), {}};
   for (std::size_t i = 0; i < legs.size(); ++i) {
@@ -265,29 +238,22 @@ void record(const PlannedFlight& flight, const ResolvedMission& mission, const S
       prepared = prepare_leg(legs[i], mission, seen, count_frames(legs, i), gl, folder, context, taking);
     }
     context.progress.start(legs[i].window ? "settling frames" : "render");
-    take_samples(prepared, legs[i], sinks, folder, context, taking, recorded);
+    take_samples(prepared, mission.scenario, legs[i], sinks, folder, context, taking, recorded);
     context.progress.finish(std::to_string(prepared.sensors->count_frames()) + " frames");
   }
-  finish_recording(mission, set, queue, folder, context);
+  finish_recording(mission, recording.legend, set, queue, folder, context);
 }
 
 }  // namespace
 
-std::unique_ptr<Renderer> prepare_renderer(const Scene& scene, const Scenario& scenario,
-                                           GlContext& gl, int threads,
-                                           const std::function<void(double)>& on_light,
-                                           const std::function<void(double)>& on_image) {
-  return std::make_unique<Renderer>(gl, scene, render_options(scenario, threads, on_image), on_light);
-}
-
 RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& pile,
-                             const DrivenRobots& robots, const PlannedFlight& flight,
+                             const DrivenRobots& robots, const std::vector<Leg>& legs,
                              RunFolder& folder, RunContext& context) {
   GlContext gl({context.options.gl_device, context.threads()});
   RecordedFrames recorded;
-  recorded.hashes = FrameHashes(names_of_cameras(flight.flown), names_of_lidars(flight.flown), names_of_sensors(flight.flown));
+  recorded.hashes = FrameHashes(names_of_cameras(mission.scenario), channels_of_sensors(mission.scenario));
   recorded.environment = describe_environment(gl.info(), context.threads());
-  record(flight, mission, {pile, robots}, gl, folder, context, recorded);
+  record(legs, mission, {pile, robots}, gl, folder, context, recorded);
   return recorded;
 }
 

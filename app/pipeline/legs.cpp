@@ -13,67 +13,79 @@ namespace {
 std::int64_t to_ns(double seconds) { return std::llround(seconds * 1e9); }
 
 // Where the camera stands: as the mission says, or as its flight begins.
-Waypoint standing_place(const Scenario& flown) {
+Waypoint standing_place(const RecordSettlingScenario& asked, const TrajectorySpec& flown) {
   Waypoint place;
-  const RecordSettlingScenario& asked = flown.record_settling;
   if (asked.position) {
     place.position = *asked.position;
     place.look_at = *asked.look_at;
     return place;
   }
-  const Waypoint& first = flown.trajectory.waypoints.front();
+  const Waypoint& first = flown.waypoints.front();
   place.position = first.position;
   place.look_at = first.look_at;
   place.rpy_deg = first.rpy_deg;
   return place;
 }
 
-Leg plan_watching(const Scenario& flown, const Track& track) {
-  const RecordSettlingScenario& asked = flown.record_settling;
+double rate_of_watching(const Scenario& scenario) {
+  return scenario.record_settling.rate_hz.value_or(scenario.trajectory.rate_hz);
+}
+
+// What of the track is recorded; nothing: none is.
+std::optional<TrackWindow> find_window(const Scenario& scenario, const Track& track) {
+  const RecordSettlingScenario& asked = scenario.record_settling;
+  if (!asked.on || track.end() <= 0) return std::nullopt;
   const double to = std::min(asked.to.value_or(track.end()), track.end());
   if (to <= asked.from) {
     throw InputError({"", 0, "record_settling.from", "the pile rests by then",
                       "less than " + format_number(track.end()) + " s", format_number(asked.from),
                       ""});
   }
-  Leg leg;
-  leg.scenario = flown;
-  leg.scenario.start_ns = flown.start_ns + to_ns(asked.from);
-  TrajectorySpec path;
-  path.rate_hz = asked.rate_hz.value_or(flown.trajectory.rate_hz);
-  path.waypoints.assign(2, standing_place(flown));
-  path.waypoints[0].t = 0;
-  path.waypoints[1].t = to - asked.from;
-  leg.scenario.trajectory = path;
-  leg.flight = build_rig_flight(leg.scenario, std::make_shared<const CameraPath>(path));
-  leg.window = TrackWindow{asked.from, to};
-  leg.zero_ns = flown.start_ns;
-  leg.noise_seed = hash64("settling") ^ flown.seed;
-  return leg;
+  return TrackWindow{asked.from, to};
 }
 
-// The first stamp after the watching at which a frame of either rate may come.
-std::int64_t end_of(const Leg& watching, const Track& track) {
-  const double rate_hz = watching.scenario.trajectory.rate_hz;
-  const std::int64_t next =
-      sample_path(*watching.flight.path, rate_hz, watching.scenario.start_ns).back().stamp_ns +
-      to_ns(1 / rate_hz);
-  return std::max(next, watching.zero_ns + to_ns(track.end()));
+// Standing there as long as that.
+TrajectorySpec stand(const Waypoint& place, const TrackWindow& window, double rate_hz) {
+  TrajectorySpec path;
+  path.rate_hz = rate_hz;
+  path.waypoints.assign(2, place);
+  path.waypoints[0].t = 0;
+  path.waypoints[1].t = window.to - window.from;
+  return path;
+}
+
+// Of what stands on the rig: robots, and what they carry, come with the flight.
+Leg plan_watching(const Scenario& scenario, const TrajectorySpec& flown, const TrackWindow& window) {
+  Leg leg;
+  const TrajectorySpec path = stand(standing_place(scenario.record_settling, flown), window, rate_of_watching(scenario));
+  leg.flight = build_rig_flight(scenario.cameras, scenario.start_ns + to_ns(window.from), path.rate_hz,
+                                std::make_shared<const CameraPath>(path));
+  leg.window = window;
+  leg.zero_ns = scenario.start_ns;
+  leg.noise_seed = hash64("settling") ^ scenario.seed;
+  return leg;
 }
 
 }  // namespace
 
-std::vector<Leg> plan_legs(const Scenario& flown, std::shared_ptr<const MotionPath> path,
-                           const Track& track, const RobotReadings& robots) {
+// The first stamp after the watching at which a frame of either rate may come.
+std::int64_t find_flight_start(const Scenario& scenario, const Track& track) {
+  const std::optional<TrackWindow> window = find_window(scenario, track);
+  if (!window) return scenario.start_ns;
+  const double rate_hz = rate_of_watching(scenario);
+  const CameraPath path(stand({}, *window, rate_hz));
+  const std::int64_t last = sample_path(path, rate_hz, scenario.start_ns + to_ns(window->from)).back().stamp_ns;
+  return std::max(last + to_ns(1 / rate_hz), scenario.start_ns + to_ns(track.end()));
+}
+
+std::vector<Leg> plan_legs(const Scenario& scenario, const FlightPlan& plan, const Track& track,
+                           const RobotReadings& robots) {
   std::vector<Leg> legs;
+  if (const auto window = find_window(scenario, track)) legs.push_back(plan_watching(scenario, plan.trajectory, *window));
   Leg flight;
-  flight.scenario = flown;
-  flight.noise_seed = flown.seed;
-  if (flown.record_settling.on && track.end() > 0) {
-    legs.push_back(plan_watching(flown, track));
-    flight.scenario.start_ns = end_of(legs.front(), track);
-  }
-  flight.flight = build_rig_flight(flight.scenario, std::move(path), robots);
+  flight.noise_seed = scenario.seed;
+  const std::shared_ptr<const MotionPath> path = robots.ride ? robots.ride : plan.path;
+  flight.flight = build_rig_flight(scenario.cameras, find_flight_start(scenario, track), scenario.trajectory.rate_hz, path, robots);
   legs.push_back(std::move(flight));
   return legs;
 }

@@ -3,12 +3,14 @@
 #include <filesystem>
 
 #include "app/fines/seen_fines.h"
+#include "app/formats/class_labels.h"
 #include "app/provenance/earlier_files.h"
 #include "app/scene/build_scene.h"
 #include "app/surroundings/seen_surroundings.h"
+#include "app/victims/place_victims.h"
 #include "io/recording/one_camera.h"
+#include "kernel/base/hash.h"
 #include "kernel/base/system/output_files.h"
-#include "scripting/scenario/lidar_schema.h"
 
 namespace rubble {
 
@@ -23,18 +25,16 @@ Channels channels_of(const MountedCamera& mounted) {
   return channels;
 }
 
-// several: it is one of `cameras`, and not the rig itself.
-CameraRecord record_of(const MountedCamera& mounted, bool several) {
+CameraRecord record_of(const MountedCamera& mounted) {
   CameraRecord record;
-  const CameraScenario& camera = mounted.camera;
   record.name = mounted.name;
-  record.topic = camera.topic.value_or("/" + mounted.name);
-  if (several) record.truth_topic = record.topic + "/ground_truth";
+  record.topic = mounted.topic();
+  if (mounted.named) record.truth_topic = record.topic + "/ground_truth";
   record.link = mounted.name + "_link";
-  record.optical = camera.frame_id.value_or(mounted.name + "_optical_frame");
+  record.optical = mounted.frame_id();
   record.right_optical = mounted.name + "_right_optical_frame";
-  record.baseline = camera.stereo_baseline;
-  if (!mounted.is_rig()) record.rig_from_camera = mounted.rig_from_camera();
+  record.baseline = mounted.camera.stereo_baseline;
+  record.rig_from_camera = mounted.rig_from_camera();
   record.channels = channels_of(mounted);
   return record;
 }
@@ -43,21 +43,10 @@ CameraRecord record_of(const MountedCamera& mounted, bool several) {
 ImuRecord record_of(const ImuScenario& imu, const std::string& carried) {
   ImuRecord record;
   record.name = imu.name;
-  record.topic = imu.topic.value_or("/" + imu.name);
+  record.topic = imu.ros_topic();
   record.frame_id = imu.frame_id.value_or(imu.is_rig() ? carried : imu.name + "_link");
-  if (!imu.is_rig()) record.rig_from_imu = imu.rig_from_imu();
+  record.rig_from_imu = imu.rig_from_imu();
   record.model = imu.model;
-  return record;
-}
-
-LidarRecord record_of(const Scenario& scenario, std::size_t number) {
-  const LidarScenario& lidar = scenario.lidars[number];
-  LidarRecord record;
-  record.name = lidar.name;
-  record.topic = lidar_topic(scenario, number);
-  record.frame_id = lidar.frame_id.value_or(lidar.name + "_link");
-  record.rig_from_lidar = lidar.rig_from_lidar();
-  record.spec = lidar.spec();
   return record;
 }
 
@@ -76,7 +65,7 @@ void add_recorders_of_cameras(const RecordingInputs& inputs, const std::string& 
   remove_folder_of_killed_run(folder + "/" + kCamerasFolder);
   for (std::size_t i = 0; i < inputs.recording.cameras.size(); ++i) {
     const Recording alone = inputs.recording.of_camera(i);
-    const std::string own = folder + "/" + kCamerasFolder + "/" + alone.cameras.front().name;
+    const std::string own = inputs.scenario.cameras[i].folder_in(folder);
     RecordingInputs of_camera{inputs.scenario, alone, {}, inputs.title};
     if (!inputs.frames.empty()) of_camera.frames = {inputs.frames[i]};
     of_camera.camera = i;
@@ -96,49 +85,56 @@ void add_recorders_of_cameras(const RecordingInputs& inputs, const std::string& 
 Recording describe_recording(const Scenario& scenario, const AssetLibrary& assets,
                              const PileState& pile, const std::vector<RobotRecord>& robots) {
   Recording recording;
-  const bool several = !scenario.cameras.empty();
   // A robot's own base is called base_link.
-  if (several) recording.rig = scenario.robots.empty() ? "base_link" : "rig_link";
+  if (scenario.names_cameras()) recording.rig = scenario.robots.empty() ? "base_link" : "rig_link";
   recording.cameras.clear();
   recording.robots = robots;
-  for (const MountedCamera& camera : all_cameras(scenario)) {
-    recording.cameras.push_back(record_of(camera, several));
+  for (const MountedCamera& camera : scenario.cameras) {
+    recording.cameras.push_back(record_of(camera));
     recording.cameras.back().carrier = frame_of(camera.ride, scenario, robots);
   }
-  for (const ImuScenario& imu : all_imus(scenario)) {
+  for (const ImuScenario& imu : scenario.imus) {
     const std::string carrier = frame_of(imu.ride, scenario, robots);
     recording.imus.push_back(record_of(imu, recording.frame_of(carrier)));
     recording.imus.back().carrier = carrier;
   }
-  for (std::size_t i = 0; i < scenario.lidars.size(); ++i) {
-    recording.lidars.push_back(record_of(scenario, i));
-    recording.lidars.back().carrier = frame_of(scenario.lidars[i].ride, scenario, robots);
-  }
   for (const SensorItem& sensor : scenario.sensors)
-    recording.sensors.push_back({sensor.name, sensor.ros_topic(), sensor.frame(), frame_of(sensor.ride, scenario, robots),
+    recording.sensors.push_back({sensor.name, topic_of(scenario.sensors, sensor), sensor.frame(), frame_of(sensor.ride, scenario, robots),
                                  sensor.carrier_from_sensor(), sensor.figures->clone()});
-  recording.legend.labels = label_names(scenario, assets);
+  const ClassLabels labels(scenario, assets.types);
+  recording.legend.labels = labels.names();
   for (const PieceState& piece : pile.pieces) {
     const auto type = std::size_t(piece.type);
     recording.legend.pieces.push_back(
-        {std::uint16_t(kFirstAssetLabel + piece.type), assets.types[type].name});
+        {labels.of_type(piece.type), assets.types[type].name});
   }
-  add_fines(scenario, assets, pile, recording.legend);
-  add_surroundings(scenario, assets, pile, recording.legend);
+  for (const Victim& victim : find_victims(pile)) recording.legend.pieces.at(std::size_t(victim.piece)).victim = true;
+  add_fines(labels, pile, recording.legend);
+  add_surroundings(labels, pile, recording.legend);
   return recording;
+}
+
+void add_links(const RobotModel& robot, std::uint16_t label, Legend& legend) {
+  for (const RobotLink& link : robot.links) legend.pieces.push_back({label, robot.name + "/" + link.name});
+}
+
+std::string recording_title(const std::string& script, std::uint64_t seed, const PileState& pile) {
+  return std::filesystem::path(script).stem().string() + "   seed " + std::to_string(seed) + "   " +
+         std::to_string(pile.pieces.size()) + " pieces   state " + hex64(pile.state_hash());
 }
 
 RecorderSet make_recorders(const RecordingInputs& inputs, const std::string& folder) {
   RecorderSet set;
-  const bool several = !inputs.scenario.cameras.empty();
+  const bool apart = inputs.scenario.names_cameras();
   for (const RecordingFormat& format : recording_formats()) {
-    if (!is_wanted(format, inputs.scenario) || (several && format.one_camera)) continue;
+    if (!is_wanted(format, inputs.scenario) || (apart && format.one_camera)) continue;
     const std::string path = folder + "/" + format.leaves;
     remove_folder_of_killed_run(path);
     set.names.push_back(format.leaves);
+    if (!format.beside.empty()) set.names.push_back(format.beside);
     set.recorders.push_back(format.make(path, inputs));
   }
-  if (several) add_recorders_of_cameras(inputs, folder, set);
+  if (apart) add_recorders_of_cameras(inputs, folder, set);
   return set;
 }
 

@@ -10,6 +10,7 @@
 #include "io/recording/recorder.h"
 #include "io/recording/recording.h"
 #include "kernel/model/pile_state.h"
+#include "kernel/model/robot.h"
 #include "scripting/scenario/scenario.h"
 
 namespace rubble {
@@ -23,6 +24,12 @@ struct RecorderSet {
 // scenario, in their order.
 Recording describe_recording(const Scenario& scenario, const AssetLibrary& assets,
                              const PileState& pile, const std::vector<RobotRecord>& robots = {});
+
+// The links of a robot with the class of robots, whose numbers follow those of the pieces and of the robots before it.
+void add_links(const RobotModel& robot, std::uint16_t label, Legend& legend);
+
+// What the contact sheet says at its top.
+std::string recording_title(const std::string& script, std::uint64_t seed, const PileState& pile);
 
 // Those of recording_formats() that the scenario asks for. Of several cameras, formats that hold one
 // have a recorder for each, in cameras/NAME/.

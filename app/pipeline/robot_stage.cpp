@@ -36,7 +36,7 @@ void add_robot_metrics(const DrivenRobots& driven, const std::vector<RobotLog>& 
   metrics["robot_pieces_moved"] = driven.pieces_moved;
 }
 
-// Its links have no place any more, but what rides on it goes on measuring where it was last.
+// What rides on it gives no more.
 void note_lost_robots(const DrivenRobots& driven, const std::vector<std::string>& names, RunContext& context) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!driven.summaries[i].lost) continue;
@@ -45,21 +45,22 @@ void note_lost_robots(const DrivenRobots& driven, const std::vector<std::string>
     if (!samples.empty())
       std::snprintf(when, sizeof when, " after %.1f s", 1e-9 * double(samples.back().stamp_ns - samples.front().stamp_ns));
     context.warnings.push_back("robot " + names[i] + " was lost" + when +
-                               ": it left the world by settle.lost_below or settle.lost_beyond; what its sensors record "
-                               "after that is from where it was last");
+                               ": it left the world by settle.lost_below or settle.lost_beyond; what it and the sensors "
+                               "on it record ends there");
   }
 }
 
 }  // namespace
 
-DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile, RunFolder& folder,
+DrivenRobots drive_robots(const ResolvedMission& mission, const SettledPile& pile, RunFolder& folder,
                           RunContext& context) {
   if (mission.scenario.robots.empty()) return {};
   context.progress.start("robots");
   SessionOptions options;
   options.recorded = true;
   const auto session = with_lines_of_script(mission, [&] {
-    return std::make_unique<Session>(mission, pile, make_robots(mission, context), context, options);
+    options.start_ns = find_flight_start(mission.scenario, pile.track);
+    return std::make_unique<Session>(mission, pile.state, make_robots(mission, context), context, options);
   });
   const std::vector<std::string>& names = session->names();
   std::vector<RobotModel> models;
@@ -78,7 +79,7 @@ DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile,
     return session->finish();
   });
   write_robot_files(folder.path(), names, driven.moved, driven.summaries, driven.pieces_moved, session->logs(),
-                    mission.scenario.start_ns);
+                    driven.start_ns);
   for (const std::string& name : robot_file_names(names, models)) folder.add(name);
   add_robot_metrics(driven, session->logs(), driven.metrics);
   note_lost_robots(driven, names, context);

@@ -66,7 +66,7 @@ std::string describe_lost(const PileState& pile, const SettleOptions& options) {
 
 ExitCode report(const ResolvedMission& mission, const PileState& pile, const RunFolder& folder) {
   print_out("%s\n", folder.path().c_str());
-  const SettleOptions& options = mission.pile_scenario.settle;
+  const SettleOptions& options = mission.scenario.settle;
   const bool lost = std::any_of(pile.pieces.begin(), pile.pieces.end(), is_lost);
   if (lost) print_err("%s\n", describe_lost(pile, options).c_str());
   const double depth = pile.deepest_overlap.depth;
@@ -107,8 +107,7 @@ ExitCode run_to_folder(const RunRequest& request, RunKind kind) {
   check_live(request.options);
   RunContext context(request.options);
   const ResolvedMission mission = resolve_mission(request, kind, context);
-  const RunPreview preview = preview_run(kind, mission.scenario, mission.pile_scenario,
-                                         mission.assets, choose_output(request));
+  const RunPreview preview = preview_run(kind, mission.scenario, mission.assets, choose_output(request));
   if (request.preview) {
     print_out("%s%s\n", describe_files(kind, mission.scenario, mission.assets).c_str(), describe(preview).c_str());
     return ExitCode::done;
@@ -159,9 +158,9 @@ StageResults run_stages(const ResolvedMission& mission, RunFolder& folder, RunCo
     results.metrics = join(pile.metrics, measure_voids(mission, survey, folder, context));
     write_pile_files(mission, pile, folder, context);
     if (with_frames) {
-      const DrivenRobots robots = drive_robots(mission, pile.state, folder, context);
-      const PlannedFlight flight = plan_flight(mission, pile, robots, survey, folder, context);
-      results.frames = record_frames(mission, pile, robots, flight, folder, context);
+      const DrivenRobots robots = drive_robots(mission, pile, folder, context);
+      const std::vector<Leg> legs = plan_flight(mission, pile, robots, survey, folder, context);
+      results.frames = record_frames(mission, pile, robots, legs, folder, context);
       results.metrics = join(join(results.metrics, robots.metrics), results.frames.metrics);
     }
   }

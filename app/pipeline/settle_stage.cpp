@@ -8,6 +8,7 @@
 #include "app/pipeline/stages.h"
 #include "app/provenance/earlier_files.h"
 #include "app/scene/build_scene.h"
+#include "app/scene/look_pictures.h"
 #include "app/simulators/build_sim_scene.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
@@ -21,10 +22,10 @@
 #include "io/state/track_file.h"
 #include "kernel/base/hash.h"
 #include "kernel/collision/placed_overlaps.h"
-#include "kernel/settling/building_collapse.h"
 #include "kernel/settling/settle.h"
 #include "kernel/settling/settle_checkpoint.h"
 #include "kernel/settling/track_recorder.h"
+#include "kernel/structure/building.h"
 
 namespace rubble {
 namespace {
@@ -36,7 +37,7 @@ constexpr std::size_t kNotedOverlaps = 3;  // that are named
 // Nobody sees such a thing in a picture, and what can move is thrown apart. Of fixed pieces the deepest pair is named.
 void note_placed_overlaps(const ResolvedMission& mission, const Pile& pile, RunContext& context) {
   // The mission's own come first, before terrain and furniture.
-  const std::size_t own = std::min(pile.placed.size(), mission.pile_scenario.pile.placed.size());
+  const std::size_t own = std::min(pile.placed.size(), mission.scenario.pile.placed.size());
   const std::vector<Placement> placed(pile.placed.begin(), pile.placed.begin() + std::ptrdiff_t(own));
   const auto name = [&](int i) {
     const Placement& placement = placed[std::size_t(i)];
@@ -66,17 +67,15 @@ bool has_cause(const CollapseCause& c) {
 }
 
 // A building that stands has come to rest, too, but nobody gives it a cause for that.
-void note_standing_building(const Pile& pile, const PileState& state, RunContext& context) {
-  if (!pile.building.given() || !has_cause(pile.building.cause)) return;
-  const Structure building = make_damaged_building(pile.building);
-  const std::vector<StructurePiece>& pieces = building.pieces;
-  const int type = pile.building_first_type, end = type + int(building.types.size());
-  std::size_t first = 0;  // of its pieces, after what is placed
-  while (first < state.pieces.size() && (state.pieces[first].type < type || state.pieces[first].type >= end)) ++first;
-  if (state.pieces.size() < first + pieces.size()) return;
+void note_standing_building(const ResolvedMission& mission, const PileState& state, RunContext& context) {
+  if (!mission.assets.structures || !has_cause(mission.scenario.pile.building.cause)) return;
+  const std::vector<StructurePiece>& pieces = mission.assets.structures->damaged.pieces;
+  if (std::size_t(state.building.count) != pieces.size()) return;
   std::size_t fallen = 0;
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    fallen += distance(state.pieces[first + i].world_from_body.translation, pieces[i].position) > kStandsWithin;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const PieceState& piece = state.pieces[std::size_t(state.building.first) + i];
+    fallen += distance(piece.world_from_body.translation, pieces[i].position) > kStandsWithin;
+  }
   if (double(fallen) > kFewPieces * double(pieces.size())) return;
   context.warnings.push_back("pile.building.cause: the building did not collapse: " + std::to_string(fallen) + " of its " +
                              std::to_string(pieces.size()) + " pieces moved by more than 10 cm; a stronger cause brings it " +
@@ -143,7 +142,7 @@ bool has_checkpoint(const RunFolder& folder, bool recorded) {
 
 SettledPile settle_from_checkpoint_or_start(const ResolvedMission& mission, const Pile& pile,
                                             const RunFolder& folder, RunContext& context) {
-  SettleOptions options = mission.pile_scenario.settle;
+  SettleOptions options = mission.scenario.settle;
   options.threads = context.threads();
   const bool recorded = needs_track(mission.scenario);
   const bool goes_on = has_checkpoint(folder, recorded);
@@ -161,48 +160,45 @@ SettledPile settle_from_checkpoint_or_start(const ResolvedMission& mission, cons
   return settled;
 }
 
-// The pile is written last: where it is, its track is there and complete.
-void save(const SettledPile& settled, std::uint64_t work, bool recorded, const RunFolder& folder) {
-  if (recorded) save_track(settled.track, folder.file("track.bin"));
-  save_pile_state(settled.state, folder.file("pile.bin"));
-  folder.note_pile(work);
-}
-
 // What pile.bin is made from.
 std::uint64_t hash_work_of(const ResolvedMission& mission, const Pile& pile) {
-  std::uint64_t settling = hash_work(pile, mission.pile_scenario.settle);
+  std::uint64_t settling = hash_work(pile, mission.scenario.settle);
   if (mission.assets.snapshot) {
     StateHash from;
     from.add(settling);
     for (const char c : mission.assets.snapshot->sha256) from.add(std::int32_t(c));
     settling = from.digest();
   }
-  const VictimScenario& victims = mission.pile_scenario.victims;
-  if (victims.count == 0) return hash_fines_work(mission.pile_scenario, settling);
+  const VictimScenario& victims = mission.scenario.victims;
+  const FinesSpec& fines = mission.scenario.fines;
+  if (victims.count == 0) return hash_fines_work(fines, mission.pile_seed, settling);
   StateHash hash;
-  hash.add(settling), hash.add(mission.pile_scenario.seed);
+  hash.add(settling), hash.add(mission.pile_seed);
   hash.add(victims.count), hash.add(int(victims.difficulty)), hash.add(victims.radius);
-  return hash_fines_work(mission.pile_scenario, hash.digest());
+  return hash_fines_work(fines, mission.pile_seed, hash.digest());
+}
+
+// The pile is written last: where it is, all else of it is there and complete.
+void save(const ResolvedMission& mission, const PileState& state, std::uint64_t work, const RunFolder& folder) {
+  if (mission.scenario.victims.count > 0) write_text_file(folder.file("victims.json"), describe_victims(find_victims(state)));
+  save_fines_of(mission.scenario.fines, state, folder.path());
+  save_pile_state(state, folder.file("pile.bin"));
+  folder.note_pile(work);
 }
 
 // Strews fines over the pile, with what a person sees of it.
 void strew(const ResolvedMission& mission, RunContext& context, PileState& pile) {
-  if (mission.pile_scenario.fines.amount == 0) return;
+  if (mission.scenario.fines.amount == 0) return;
   context.progress.start("fines");
-  const std::string warning = lay_fines(mission.pile_scenario, mission.assets, context.threads(), pile);
+  const std::string warning = lay_fines(mission.scenario.fines, mission.pile_seed, mission.assets, context.threads(), pile);
   if (!warning.empty()) context.warnings.push_back(warning);
   context.progress.finish(std::to_string(pile.fines.pieces.size() + pile.fines.sheets.size()) + " strewn");
 }
 
-// Of a pile with victims; before pile.bin, so that it is there where that is.
-void save_victims(const VictimScenario& victims, const PileState& pile, const RunFolder& folder) {
-  if (victims.count > 0) write_text_file(folder.file("victims.json"), describe_victims(find_victims(pile)));
-}
-
-SettledPile load(const Scenario& scenario, bool recorded, const RunFolder& folder) {
+SettledPile load(const FinesSpec& fines, bool recorded, const RunFolder& folder) {
   SettledPile settled;
   settled.state = load_pile_state(folder.file("pile.bin"));
-  load_fines_of(scenario, folder.path(), settled.state);
+  load_fines_of(fines, folder.path(), settled.state);
   if (recorded) settled.track = load_track(folder.file("track.bin"));
   return settled;
 }
@@ -218,18 +214,15 @@ std::string summarize_settling(const PileState& pile, bool loaded) {
 }  // namespace
 
 void add_victims(const ResolvedMission& mission, int threads, PileState& pile) {
-  const Scenario& s = mission.pile_scenario;
+  const Scenario& s = mission.scenario;
   with_lines_of_script(mission, [&] {
-    place_victims(s.victims, s.seed, s.settle.gravity, mission.assets, threads, pile);
+    place_victims(s.victims, mission.pile_seed, s.settle.gravity, mission.assets, threads, pile);
     return 0;
   });
 }
 
 void keep_pile(const ResolvedMission& mission, const PileState& state, const RunFolder& folder) {
-  save_victims(mission.pile_scenario.victims, state, folder);
-  save_fines_of(mission.pile_scenario, state, folder.path());
-  save_pile_state(state, folder.file("pile.bin"));
-  folder.note_pile(hash_work_of(mission, make_pile(mission)));
+  save(mission, state, hash_work_of(mission, make_pile(mission)), folder);
 }
 
 SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext& context) {
@@ -239,31 +232,24 @@ SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext
   const bool recorded = needs_track(mission.scenario);
   const bool loaded = folder.has_pile_of(work) && (!recorded || folder.has("track.bin"));
   note_placed_overlaps(mission, pile, context);
-  SettledPile settled = loaded ? load(mission.pile_scenario, recorded, folder)
+  SettledPile settled = loaded ? load(mission.scenario.fines, recorded, folder)
                                : settle_from_checkpoint_or_start(mission, pile, folder, context);
   throw_if_stopped(folder.path());
-  note_standing_building(pile, settled.state, context);
-  if (!loaded) add_victims(mission, context.threads(), settled.state);
-  context.progress.finish(summarize_settling(settled.state, loaded));
-  if (!loaded) {
-    strew(mission, context, settled.state);
-    save_victims(mission.pile_scenario.victims, settled.state, folder);
-    save_fines_of(mission.pile_scenario, settled.state, folder.path());
-    save(settled, work, recorded, folder);
-  }
-  lay_surroundings(mission.scenario, mission.assets, settled.state);
-  folder.add("pile.bin");
-  if (mission.pile_scenario.victims.count > 0) folder.add("victims.json");
-  if (mission.pile_scenario.fines.amount > 0) folder.add(kFinesFile);
-  if (recorded) folder.add("track.bin");
+  complete_pile(mission, context, settled.state, loaded);
   add_pile_metrics(settled.state, mission.assets, settled.metrics);
+  if (!loaded && recorded) save_track(settled.track, folder.file("track.bin"));
+  if (!loaded) save(mission, settled.state, work, folder);
+  folder.add("pile.bin");
+  if (mission.scenario.victims.count > 0) folder.add("victims.json");
+  if (mission.scenario.fines.amount > 0) folder.add(kFinesFile);
+  if (recorded) folder.add("track.bin");
   return settled;
 }
 
 SettledPile settle_in_memory(const ResolvedMission& mission, RunContext& context,
                              const std::function<bool()>& go_on) {
   context.progress.start("settle");
-  SettleOptions options = mission.pile_scenario.settle;
+  SettleOptions options = mission.scenario.settle;
   options.threads = context.threads();
   bool stopped = false;
   SettledPile settled;
@@ -291,10 +277,11 @@ PileState settle_pieces(World& world, const ResolvedMission& mission, const Pile
   return resume_settling(world, from, pile, options, step, observe);
 }
 
-void complete_pile(const ResolvedMission& mission, RunContext& context, PileState& pile) {
-  add_victims(mission, context.threads(), pile);
-  context.progress.finish(summarize_settling(pile, false));
-  strew(mission, context, pile);
+void complete_pile(const ResolvedMission& mission, RunContext& context, PileState& pile, bool loaded) {
+  note_standing_building(mission, pile, context);
+  if (!loaded) add_victims(mission, context.threads(), pile);
+  context.progress.finish(summarize_settling(pile, loaded));
+  if (!loaded) strew(mission, context, pile);
   lay_surroundings(mission.scenario, mission.assets, pile);
 }
 
@@ -320,7 +307,9 @@ void write_pile_files(const ResolvedMission& mission, const SettledPile& pile, R
   for (const std::string& format : formats)
     for (const std::string& name : export_pile(built.model, format, folder.path())) folder.add(name);
   if (outputs.track) {
-    write_track_glb(folder.file("track.glb"), build_track_model(mission.assets, pile.state), pile.track);
+    PileModel moving = build_track_model(mission.assets, pile.state);
+    add_look_pictures(moving, context.threads());
+    write_track_glb(folder.file("track.glb"), moving, pile.track);
     folder.add("track.glb");
   }
   const std::size_t files = formats.size() + (outputs.track ? 1 : 0);

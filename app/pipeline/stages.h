@@ -7,7 +7,7 @@
 //   voids      PileSurvey            Metrics
 //   files      SettledPile           meshes of the pile           pile.stl, track.glb
 //   robots     SettledPile           DrivenRobots                 robots/
-//   flight     both, PileSurvey      PlannedFlight                flight.json
+//   flight     both, PileSurvey      legs of the recording        flight.json
 //   frames     all of these          RecordedFrames               every recorder's file
 //   manifest   all                   hashes of all                manifest.json
 //
@@ -31,7 +31,6 @@
 #include "kernel/model/track.h"
 #include "kernel/settling/settle.h"
 #include "kernel/world/world.h"
-#include "render/renderer.h"
 
 namespace rubble {
 
@@ -39,12 +38,6 @@ struct SettledPile {
   PileState state;  // settled, or the state at the time limit
   Track track;      // motion of the pieces; empty if the mission does not request it
   Metrics metrics;  // of the pile
-};
-
-// The mission with its resolved path, and its legs, each with the stamps and poses of all cameras.
-struct PlannedFlight {
-  Scenario flown;         // the source of the scenarios of all legs
-  std::vector<Leg> legs;  // in their order; at least one
 };
 
 struct RecordedFrames {
@@ -65,8 +58,9 @@ SettledPile settle_in_memory(const ResolvedMission& mission, RunContext& context
 // snapshot of another pile.
 PileState settle_pieces(World& world, const ResolvedMission& mission, const Pile& pile, const SettleOptions& options,
                         const SettleCallback& step, const WorldObserver& observe = {});
-// The second: victims, fines and surroundings, which come when all rests.
-void complete_pile(const ResolvedMission& mission, RunContext& context, PileState& pile);
+// The second: all that comes when the pile rests, for runs, runs that go on, and drives: a warning of a building that
+// stands, victims, fines, surroundings. loaded: the pile has its victims and fines already.
+void complete_pile(const ResolvedMission& mission, RunContext& context, PileState& pile, bool loaded = false);
 
 // Puts the mission's victims into a settled pile. Throws InputError, with the line of the script, when its voids have no
 // room for them.
@@ -82,25 +76,18 @@ Metrics measure_voids(const ResolvedMission& mission, PileSurvey& survey, const 
 void write_pile_files(const ResolvedMission& mission, const SettledPile& pile, RunFolder& folder,
                       RunContext& context);
 
-// Drives the mission's robots through the pile and writes their results. Throws InputError for a robot that overlaps
-// something at its start and for a function of the script that fails.
-DrivenRobots drive_robots(const ResolvedMission& mission, const PileState& pile, RunFolder& folder,
+// Drives the mission's robots through the pile from the start of the flight on, and writes their results. Throws InputError
+// for a robot that overlaps something at its start, for a function of the script that fails, and as plan_legs() does.
+DrivenRobots drive_robots(const ResolvedMission& mission, const SettledPile& pile, RunFolder& folder,
                           RunContext& context);
 
 // Finds the path if it depends on the pile. Warns of cameras inside pieces. Throws InputError, with the line of the
-// script, as resolve_flight() and plan_legs() do.
-PlannedFlight plan_flight(const ResolvedMission& mission, const SettledPile& pile,
+// script, as resolve_flight() and plan_legs() do. At least one leg is returned.
+std::vector<Leg> plan_flight(const ResolvedMission& mission, const SettledPile& pile,
                           const DrivenRobots& robots, PileSurvey& survey, RunFolder& folder, RunContext& context);
 
-// A renderer of the lit scene on the device of `gl`, for the scenario's cameras. on_light: progress from 0 to 1;
-// on_image: progress of a path-traced image; may throw to stop.
-std::unique_ptr<Renderer> prepare_renderer(const Scene& scene, const Scenario& scenario,
-                                           GlContext& gl, int threads,
-                                           const std::function<void(double)>& on_light,
-                                           const std::function<void(double)>& on_image = {});
-
 RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& pile,
-                             const DrivenRobots& robots, const PlannedFlight& flight,
+                             const DrivenRobots& robots, const std::vector<Leg>& legs,
                              RunFolder& folder, RunContext& context);
 
 // The union of both, which have no name in common.

@@ -23,8 +23,9 @@ Json json_of(const Waypoint& w, double t) {
 
 // Without its smoothing the path has room, with it it has none.
 [[noreturn]] void refuse_smoothing(const Scenario& scenario) {
-  const bool inertial = scenario.imu.on && !scenario.trajectory.smoothing;
-  throw InputError({"", 0, inertial ? "imu.on" : "trajectory.smoothing",
+  const bool inertial = scenario.has_unit_on_rig() && !scenario.trajectory.smoothing;
+  const std::string unit = !inertial ? "" : scenario.imus.front().named ? "imus" : "imu.on";
+  throw InputError({"", 0, inertial ? unit : "trajectory.smoothing",
                     "the path cannot be smoothed within the available clearance",
                     "clearance to round its corners", "none",
                     inertial ? "an IMU needs a path without corners: fly slower, make "

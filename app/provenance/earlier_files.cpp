@@ -88,6 +88,8 @@ const std::vector<std::string>& usual_run_files() {
                                    "flight.json", "victims.json", "fines.bin"};
     for (const RecordingFormat& format : recording_formats())
       if (!format.is_folder) names.push_back(format.leaves);
+    for (const RecordingFormat& format : recording_formats())
+      if (!format.beside.empty()) names.push_back(format.beside);
     for (const MeshFormat& format : mesh_formats())
       if (!format.is_folder) names.insert(names.end(), format.leaves.begin(), format.leaves.end());
     return names;
@@ -104,7 +106,7 @@ std::vector<std::string> files_of_earlier_run(const std::string& folder) {
 
 std::vector<std::string> find_derived_files(const std::string& folder) {
   std::vector<std::string> found;
-  for (const char* name : {"README.md", "SHA256SUMS", "cutaway.png", "export", "settings", "view.html", "voids"}) {
+  for (const char* name : {"README.md", "SHA256SUMS", "convert", "cutaway.png", "export", "settings", "view.html", "voids"}) {
     std::error_code failed;
     if (fs::exists(fs::symlink_status(fs::path(folder) / name, failed))) found.emplace_back(name);
   }

@@ -80,20 +80,18 @@ std::uint64_t hash_robots(const std::vector<RobotSample>& samples) {
   return hash.digest();
 }
 
-std::uint64_t hash_scan(const LidarScan& scan) {
-  StateHash hash;
-  hash.add(scan.stamp_ns);
-  for (const Pose& pose : scan.world_from_lidar) {
+void add_scan(StateHash& hash, const RangeScan& scan) {
+  for (const Pose& pose : scan.world_from_sensor) {
     for (const double c : {pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z}) hash.add(c);
     add(hash, pose.translation);
   }
-  hash.add_bytes(scan.points.data(), scan.points.size() * sizeof(LidarPoint));
-  return hash.digest();
+  hash.add_bytes(scan.points.data(), scan.points.size() * sizeof(ScanPoint));
 }
 
 std::uint64_t hash_reading(const Reading& reading) {
   StateHash hash;
   hash.add(reading.stamp_ns);
+  if (reading.scan) add_scan(hash, *reading.scan);
   for (const double value : reading.values) hash.add(std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value);
   return hash.digest();
 }
@@ -107,14 +105,13 @@ std::vector<std::string> channels_of_camera() {
 }
 
 std::vector<std::string> channels_of_sensors(const std::vector<std::string>& cameras,
-                                             const std::vector<std::string>& lidars, const std::vector<std::string>& sensors) {
+                                             const std::vector<std::string>& sensors) {
   const std::vector<std::string> each = channels_of_camera();
   std::vector<std::string> all;
   if (cameras.empty()) all = each;
   for (const std::string& camera : cameras)
     for (const std::string& channel : each) all.push_back(camera + "/" + channel);
-  for (const std::string& lidar : lidars) all.push_back(lidar + "/points");
-  for (const std::string& sensor : sensors) all.push_back(sensor + "/reading");
+  all.insert(all.end(), sensors.begin(), sensors.end());
   for (const char* rig : kOfAllCameras) all.push_back(rig);
   return all;
 }
@@ -126,8 +123,8 @@ std::string without_camera(const std::string& channel) {
 }  // namespace
 
 void FrameHashes::add(const Frame& f) {
-  if (channels.empty()) channels = channels_of_sensors(cameras_, lidars_, sensors_);
-  const std::size_t others = lidars_.size() + sensors_.size() + std::size(kOfAllCameras);
+  if (channels.empty()) channels = channels_of_sensors(cameras_, sensors_);
+  const std::size_t others = sensors_.size() + std::size(kOfAllCameras);
   const std::size_t each = (channels.size() - others) / std::max<std::size_t>(1, cameras_.size());
   std::vector<std::uint64_t>& row = frames.emplace_back(channels.size(), 0);
   auto at = row.begin() + std::ptrdiff_t(std::size_t(f.sensor) * each);
@@ -137,12 +134,8 @@ void FrameHashes::add(const Frame& f) {
     *at++ = image ? std::visit([](const auto* values) { return hash_numbers(*values); }, *image) : 0;
   }
   *at = hash_events(f.events);
-  for (std::size_t i = 0; i < lidars_.size(); ++i) {
-    row[row.size() - others + i] = hash_numbers(scans_[i]);
-    scans_[i].clear();
-  }
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
-    row[row.size() - others + lidars_.size() + i] = hash_numbers(values_[i]);
+    row[row.size() - others + i] = hash_numbers(values_[i]);
     values_[i].clear();
   }
   row[row.size() - 2] = hash_imu(readings_);
@@ -153,10 +146,6 @@ void FrameHashes::add(const Frame& f) {
 
 void FrameHashes::add_imu(const ImuSample& sample) { readings_.push_back(sample); }
 void FrameHashes::add_robot(const RobotSample& sample) { robots_.push_back(sample); }
-
-void FrameHashes::add_lidar(const LidarScan& scan) {
-  scans_.at(std::size_t(scan.sensor)).push_back(hash_scan(scan));
-}
 
 void FrameHashes::add_reading(const Reading& reading) {
   values_.at(std::size_t(reading.sensor)).push_back(hash_reading(reading));

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "render/scene/frame.h"
-#include "render/scene/lidar_scan.h"
 #include "render/scene/reading.h"
 #include "render/scene/robot_sample.h"
 
@@ -15,14 +14,11 @@ namespace rubble {
 
 // XXH64 of a channel's bytes; 0: the frame has no such channel. Of several cameras the channels are
 // called "front/rgb", and a row is a frame of one of them, in the order of stamps.
-// Scans of a LiDAR are in the channel "top/points" of the frame that follows them, readings of another sensor in
-// "front/reading".
+// Readings of a sensor are in a channel of the frame that follows them: "front/reading", of one that scans "top/points".
 struct FrameHashes {
-  // cameras: their names, of several; empty: a single camera. lidars, sensors: likewise, of all.
-  explicit FrameHashes(std::vector<std::string> cameras = {}, std::vector<std::string> lidars = {},
-                       std::vector<std::string> sensors = {})
-      : cameras_(std::move(cameras)), lidars_(std::move(lidars)), sensors_(std::move(sensors)), scans_(lidars_.size()),
-        values_(sensors_.size()) {}
+  // cameras: their names, of several; empty: a single camera. sensors: the channels of all of the scenario's sensors.
+  explicit FrameHashes(std::vector<std::string> cameras = {}, std::vector<std::string> sensors = {})
+      : cameras_(std::move(cameras)), sensors_(std::move(sensors)), values_(sensors_.size()) {}
 
   std::vector<std::string> channels;               // "pose", "rgb", "depth", ..., "events", "imu", "robots"; from the first frame on
   std::vector<std::vector<std::uint64_t>> frames;  // one hash per channel
@@ -32,15 +28,13 @@ struct FrameHashes {
   void add(const Frame& frame);
   void add_imu(const ImuSample& sample);
   void add_robot(const RobotSample& sample);
-  void add_lidar(const LidarScan& scan);
   void add_reading(const Reading& reading);
   // Without the channels that no frame has.
   FrameHashes compact() const;
 
  private:
-  std::vector<std::string> cameras_, lidars_, sensors_;
+  std::vector<std::string> cameras_, sensors_;
   std::vector<ImuSample> readings_;                // since the last frame
-  std::vector<std::vector<std::uint64_t>> scans_;  // likewise: of each LiDAR a hash of each scan
   std::vector<std::vector<std::uint64_t>> values_;  // likewise: of each sensor a hash of each reading
   std::vector<RobotSample> robots_;                // likewise
 };

@@ -45,10 +45,7 @@ class Finder {
 
 std::vector<std::string> find_buried_sensors(const Scenario& scenario, const std::vector<MissionRobot>& robots) {
   Finder finder(scenario, robots);
-  for (const MountedCamera& camera : all_cameras(scenario))
-    finder.look(scenario.cameras.empty() ? "camera" : "cameras." + camera.name, camera.ride,
-                camera.is_rig() ? Pose() : camera.rig_from_camera());
-  for (const LidarScenario& lidar : scenario.lidars) finder.look("lidars." + lidar.name, lidar.ride, lidar.rig_from_lidar());
+  for (const MountedCamera& camera : scenario.cameras) finder.look(camera.key(), camera.ride, camera.rig_from_camera());
   for (const SensorItem& sensor : scenario.sensors)
     if (sensor.figures->casts_rays()) finder.look(sensor.key(), sensor.ride, sensor.carrier_from_sensor());
   return finder.take();

@@ -8,7 +8,7 @@
 
 namespace rubble {
 
-// Warnings of cameras, LiDARs and sensors that cast rays. Throws InputError as find_link() does.
+// Warnings of cameras and sensors that cast rays. Throws InputError as find_link() does.
 std::vector<std::string> find_buried_sensors(const Scenario& scenario, const std::vector<MissionRobot>& robots);
 
 }  // namespace rubble

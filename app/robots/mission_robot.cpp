@@ -7,42 +7,12 @@
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/system/file_sandbox.h"
-#include "kernel/robot/bundled.h"
+#include "scripting/robots/robot_kind.h"
 
 namespace rubble {
 namespace {
 
 namespace fs = std::filesystem;
-
-VineOptions vine_options(const RobotItem& robot) {
-  VineOptions options;
-  options.tube.pressure = robot.pressure;
-  options.tube.radius = robot.radius;
-  options.tube.link_length = robot.link_length;
-  options.tube.links = count_vine_links(robot.length, robot.link_length);
-  options.tube.start_links = std::min(options.tube.start_links, options.tube.links);
-  options.friction = robot.friction.value_or(options.friction);
-  return options;
-}
-
-RobotModel make_bundled(const RobotItem& robot) {
-  if (robot.model == RobotKind::snake) {
-    SnakeOptions options;
-    options.modules = robot.modules;
-    options.friction = robot.friction.value_or(options.friction);
-    return make_snake(options);
-  }
-  if (robot.model == RobotKind::crawler) {
-    CrawlerOptions options;
-    options.flippers = robot.flippers;
-    options.friction = robot.friction.value_or(options.friction);
-    return make_crawler(options);
-  }
-  if (robot.model == RobotKind::vine) return make_vine(vine_options(robot));
-  RoverOptions options;
-  options.friction = robot.friction.value_or(options.friction);
-  return make_rover(options);
-}
 
 std::string find_file(const std::string& name, const std::vector<std::string>& folders,
                       const std::string& key) {
@@ -97,7 +67,7 @@ std::size_t find_joint(const RobotModel& model, const std::string& name, const s
 // Where joints stand at first; a mimic where what it follows puts it.
 void set_starts(const RobotItem& robot, const std::string& key, RobotModel& model) {
   if (model.tube && !robot.start.empty())
-    throw InputError({"", 0, key, "the joints of a vine start as it grows", "nothing", "a table", ""});
+    throw InputError({"", 0, key, "the joints of a robot that grows start as it grows", "nothing", "a table", ""});
   for (RobotJoint& joint : model.joints) joint.start = std::clamp(joint.start, joint.lower, joint.upper);
   std::vector<std::size_t> given;
   for (const auto& [name, position] : robot.start) {
@@ -139,7 +109,7 @@ MissionRobot make_mission_robot(const RobotItem& robot, const std::vector<std::s
   if (!robot.urdf.empty())
     made = make_urdf_robot(robot, find_file(robot.urdf, folders, key), key, importer);
   else
-    made.model = make_bundled(robot);
+    made.model = kind_of(robot).make(robot);
   set_starts(robot, key + ".start", made.model);
   for (std::size_t i = 0; i < robot.lamps.size(); ++i)
     made.model.lamps.push_back(place_lamp(robot.lamps[i], made, key + ".lamps[" + std::to_string(i + 1) + "]"));

@@ -19,6 +19,7 @@ constexpr double kFullEffortSlide = 0.007;  // of a slider; unit: m
 constexpr double kDampingTime = 0.05;   // of position control: damping by stiffness; unit: s
 constexpr double kMostGain = 1e9;       // of stiffness and damping
 constexpr double kLeftwards = 0.999;    // cosine between a wheel's axis and +Y
+constexpr double kUpwards = 0.9;        // between that of steering and Z, less its caster angle
 constexpr double kGravity = 9.81;       // unit: m/s2
 
 class Builder {
@@ -280,16 +281,16 @@ class Builder {
     return tracks;
   }
 
-  // In the middle of a track's shape.
-  double middle_of(const std::vector<int>& tracks) const {
-    double sum = 0;
+  // Of tracks, in the middle of their shapes.
+  Vec3 middle_of(const std::vector<int>& tracks) const {
+    Vec3 sum;
     for (const int track : tracks) {
       Aabb reach;
       for (const ConvexPart& part : made_.model.links[std::size_t(track)].parts)
         for (const Vec3& p : part.points) reach.include(zero_[std::size_t(track)] * p);
-      sum += 0.5 * (reach.min.y + reach.max.y);
+      sum += (reach.min + reach.max) * 0.5;
     }
-    return sum / double(tracks.size());
+    return sum * (1 / double(tracks.size()));
   }
 
   void add_belts() {
@@ -301,7 +302,8 @@ class Builder {
     if (!sides.any() || !mistakes_.empty()) return;
     sides.belts = true;
     refuse_odom_link("left_tracks");
-    sides.distance = middle_of(sides.left) - middle_of(sides.right);
+    const Vec3 left = middle_of(sides.left), right = middle_of(sides.right);
+    sides.distance = left.y - right.y, sides.axle = 0.5 * (left.x + right.x);
     if (sides.distance <= 0) refuse_key("left_tracks", "the left tracks are not left of the right ones", "a larger y", "");
   }
 
@@ -311,6 +313,14 @@ class Builder {
       if (link.name == "odom") add(link.line, link.name, "is the frame of the odometry", "another name, or no `" + key + "`", "");
   }
 
+  // Of a wheel's middle, in the base.
+  Vec3 place_of(int wheel) const { return zero_[std::size_t(made_.model.joints[std::size_t(wheel)].child)].translation; }
+  Vec3 mean_place(const std::vector<int>& wheels) const {
+    Vec3 sum;
+    for (const int wheel : wheels) sum += place_of(wheel);
+    return sum * (1 / double(wheels.size()));
+  }
+
   void add_sides() {
     if (robot_.left_wheels.empty()) return;
     zero_ = calc_base_from_links(made_.model, std::vector<double>(made_.model.joints.size(), 0));
@@ -318,17 +328,95 @@ class Builder {
     sides.left = wheels_of(robot_.left_wheels, "left_wheels");
     sides.right = wheels_of(robot_.right_wheels, "right_wheels");
     if (!sides.any()) return;
-    const auto middle = [&](const std::vector<int>& side) {
-      double sum = 0;
-      for (int i : side)
-        sum += zero_[std::size_t(made_.model.joints[std::size_t(i)].child)].translation.y;
-      return sum / double(side.size());
-    };
     refuse_odom_link("left_wheels");
     sides.radius = robot_.wheel_radius;
-    sides.distance = middle(sides.left) - middle(sides.right);
-    if (sides.distance > 0) return;
-    refuse_key("left_wheels", "the left wheels are not left of the right ones", "a larger y", "");
+    sides.distance = mean_place(sides.left).y - mean_place(sides.right).y;
+    if (sides.distance <= 0) refuse_key("left_wheels", "the left wheels are not left of the right ones", "a larger y", "");
+    refuse_rollers();
+    if (mistakes_.empty()) add_steering();
+  }
+
+  // Of mecanum and omni wheels: these also roll sideways, and turn the robot by another law.
+  void refuse_rollers() {
+    const std::vector<RobotJoint>& joints = made_.model.joints;
+    for (const auto* side : {&made_.model.sides.left, &made_.model.sides.right})
+      for (const int wheel : *side)
+        for (const RobotJoint& roller : joints)
+          if (roller.parent == joints[std::size_t(wheel)].child && roller.kind != JointKind::weld)
+            return refuse_key(side == &made_.model.sides.left ? "left_wheels" : "right_wheels",
+                              "the wheel has rollers: mecanum and omni wheels do not drive as these do; a function as `control` "
+                              "gives each wheel its speed",
+                              "wheels without joints of their own",
+                              "\"" + joints[std::size_t(wheel)].name + "\" with \"" + roller.name + "\"");
+  }
+
+  // The joints between the base and that one, nearest first.
+  std::vector<int> chain_to(int joint) const {
+    std::vector<int> chain;
+    const std::vector<RobotJoint>& joints = made_.model.joints;
+    for (int link = joints[std::size_t(joint)].parent; link > 0; link = joints[std::size_t(link) - 1].parent) chain.push_back(link - 1);
+    return chain;
+  }
+
+  // Those that are driven, and others that turn freely as they do, as high above the ground.
+  std::vector<int> find_wheels() const {
+    const SideDrive& sides = made_.model.sides;
+    std::vector<int> wheels = sides.left;
+    wheels.insert(wheels.end(), sides.right.begin(), sides.right.end());
+    const double height = mean_place(wheels).z;
+    for (int i = 0; i < int(made_.model.joints.size()); ++i) {
+      const RobotJoint& joint = made_.model.joints[std::size_t(i)];
+      const Vec3 axis = zero_[std::size_t(joint.child)].rotation.rotate(joint.axis);
+      if (joint.kind == JointKind::hinge && std::abs(axis.y) > kLeftwards && !(joint.upper - joint.lower < kNever) &&
+          std::abs(place_of(i).z - height) < 0.5 * sides.radius && std::find(wheels.begin(), wheels.end(), i) == wheels.end())
+        wheels.push_back(i);
+    }
+    return wheels;
+  }
+
+  // Turns about the vertical axis within limits, by a motor. What turns round and round is a castor's.
+  double steering_sign(int joint) const {
+    const RobotJoint& j = made_.model.joints[std::size_t(joint)];
+    const double up = zero_[std::size_t(j.child)].rotation.rotate(j.axis).z;
+    return j.kind == JointKind::hinge && std::abs(up) > kUpwards && j.upper - j.lower < kNever && j.motor.effort > 0 ? std::copysign(1.0, up)
+                                                                                                                    : 0;
+  }
+
+  // A robot with steered wheels is a car. If `steering` does not say so, it would be dragged sideways over them.
+  void add_steering() {
+    SideDrive& sides = made_.model.sides;
+    std::vector<int> steering, fixed_driven, fixed_others;
+    for (const std::string& name : robot_.steering) {
+      steering.push_back(find_joint(name));
+      if (steering.back() < 0 || steering_sign(steering.back()) == 0)
+        return refuse_key("steering", "not a joint that steers: a hinge about the vertical axis, with limits and an effort",
+                          "such a joint of " + file_.path, "\"" + name + "\"");
+    }
+    const std::size_t driven = sides.left.size() + sides.right.size();
+    const std::vector<int> wheels = find_wheels();
+    for (std::size_t k = 0; k < wheels.size(); ++k) {
+      const std::vector<int> chain = chain_to(wheels[k]);
+      const auto steers = std::find_if(chain.begin(), chain.end(), [&](int joint) { return steering_sign(joint) != 0; });
+      if (steers == chain.end()) {
+        (k < driven ? fixed_driven : fixed_others).push_back(wheels[k]);
+        continue;
+      }
+      const std::string& name = made_.model.joints[std::size_t(*steers)].name;
+      if (std::find(steering.begin(), steering.end(), *steers) == steering.end())
+        return refuse_key("steering", "the joint steers the wheel `" + made_.model.joints[std::size_t(wheels[k])].name + "`",
+                          "\"" + name + "\" in `steering`", robot_.steering.empty() ? "no `steering`" : "others");
+      const Vec3 place = place_of(wheels[k]);
+      sides.steered.push_back({*steers, steering_sign(*steers), place.x, place.y, k < driven ? wheels[k] : -1});
+    }
+    const std::vector<int>& axle = !fixed_driven.empty() ? fixed_driven : !fixed_others.empty() && !steering.empty() ? fixed_others : wheels;
+    sides.axle = mean_place(axle).x;
+    for (const int joint : steering) {
+      const auto wheel = std::find_if(sides.steered.begin(), sides.steered.end(), [&](const SteeredWheel& w) { return w.joint == joint; });
+      const bool ahead = wheel != sides.steered.end() && std::abs(wheel->x - sides.axle) > 0.1 * sides.radius;
+      if (ahead) continue;
+      return refuse_key("steering", wheel == sides.steered.end() ? "the joint carries no wheel" : "its wheel is on the axle that does not turn",
+                        "a joint that steers a wheel before or behind the others", "\"" + made_.model.joints[std::size_t(joint)].name + "\"");
+    }
   }
 
   // What the world would refuse, with the line of the file.

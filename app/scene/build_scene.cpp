@@ -29,45 +29,41 @@ Placement place(const PlacedItem& item, const AssetLibrary& assets) {
 
 }  // namespace
 
-PileSpec build_pile_spec(const Scenario& scenario, const AssetLibrary& assets) {
+PileSpec build_pile_spec(const PileScenario& pile, std::uint64_t seed, const AssetLibrary& assets) {
   PileSpec spec;
-  spec.seed = scenario.seed;
+  spec.seed = seed;
   spec.types = assets.types;
   spec.assemblies = assets.assemblies;
   spec.mix = assets.mix;
-  for (const PlacedItem& item : scenario.pile.placed) spec.placed.push_back(place(item, assets));
+  for (const PlacedItem& item : pile.placed) spec.placed.push_back(place(item, assets));
   for (const int type : assets.terrain())
-    spec.placed.push_back(place_terrain(scenario.pile.terrain, type));
-  spec.building = building_of(scenario);
+    spec.placed.push_back(place_terrain(pile.terrain, type));
+  spec.building = building_of(pile, seed);
   spec.building_first_type = assets.building_first_type;
-  for (const FurnitureItem& item : scenario.pile.furniture)
+  spec.structures = assets.structures;
+  for (const FurnitureItem& item : pile.furniture)
     spec.furniture.push_back({assets.find(item.asset), item.per_bay, item.roof});
-  spec.spawn_position = scenario.pile.spawn_position;
-  spec.spawn_bounds = scenario.pile.spawn_bounds;
-  spec.spawn_density = scenario.pile.spawn_density;
-  spec.layers = scenario.pile.layers;
-  spec.pieces_per_layer = scenario.pile.pieces_per_layer;
+  spec.spawn_position = pile.spawn_position;
+  spec.spawn_bounds = pile.spawn_bounds;
+  spec.spawn_density = pile.spawn_density;
+  spec.layers = pile.layers;
+  spec.pieces_per_layer = pile.pieces_per_layer;
   return spec;
 }
 
-SceneInstance make_instance(const PieceState& piece, std::size_t number) {
+SceneInstance make_instance(const ClassLabels& labels, const PieceState& piece, std::size_t number) {
   SceneInstance instance;
   instance.mesh = std::uint32_t(piece.type);
   instance.scale = float(piece.scale);
   instance.world_from_body = piece.world_from_body;
   instance.id = std::uint32_t(number);
-  instance.label = std::uint16_t(kFirstAssetLabel + piece.type);
+  instance.label = labels.of_type(piece.type);
   return instance;
 }
 
-// The pieces of a building are together in a pile, in their order.
 void set_building_cuts(const AssetLibrary& assets, const PileState& pile, Scene& scene) {
-  if (assets.building_cuts.empty()) return;
-  const int first_type = assets.building_first_type, types = int(assets.building_counts.size());
-  const auto first = std::find_if(pile.pieces.begin(), pile.pieces.end(), [&](const PieceState& piece) {
-    return piece.type >= first_type && piece.type < first_type + types;
-  });
-  const std::size_t begin = std::size_t(first - pile.pieces.begin());
+  if (pile.building.count == 0) return;
+  const std::size_t begin = std::size_t(pile.building.first);
   for (SceneInstance& instance : scene.instances) {
     if (instance.id >= begin && instance.id - begin < assets.building_cuts.size())
       instance.cut_from = assets.building_cuts[instance.id - begin];
@@ -75,19 +71,20 @@ void set_building_cuts(const AssetLibrary& assets, const PileState& pile, Scene&
 }
 
 Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile) {
+  const ClassLabels labels(scenario, assets.types);
   Scene scene;
   scene.meshes = assets.meshes;
   for (std::size_t i = 0; i < pile.pieces.size(); ++i) {
     const PieceState& piece = pile.pieces[i];
     if (piece.status == PieceStatus::lost) continue;
-    scene.instances.push_back(make_instance(piece, i));
+    scene.instances.push_back(make_instance(labels, piece, i));
   }
   set_building_cuts(assets, pile, scene);
-  add_fines(scenario, assets, pile, scene);
-  add_surroundings(scenario, assets, pile, scene);
+  add_fines(labels, pile, scene);
+  add_surroundings(labels, pile, scene);
   scene.light = resolve_light(scenario);
-  scene.sky = scenario.light.sky;
-  scene.more_lights = scenario.lights;
+  scene.sky = scenario.lights.front().sky;
+  for (std::size_t i = 1; i < scenario.lights.size(); ++i) scene.more_lights.push_back(scenario.lights[i].spec);
   add_street_lamps(pile, count_lamps(scenario.robots), scene);
   scene.wetness = scenario.wetness;
   scene.lamp = scenario.lamp;
@@ -95,16 +92,6 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
   scene.seed = scenario.seed;
   scene.start_ns = scenario.start_ns;
   return scene;
-}
-
-std::vector<std::string> label_names(const Scenario& scenario, const AssetLibrary& assets) {
-  std::vector<std::string> names{"sky", "ground"};
-  for (const PieceType& type : assets.types) names.push_back(type.name);
-  if (!scenario.robots.empty()) names.push_back("robot");
-  if (scenario.fines.amount > 0) names.insert(names.end(), fine_names().begin(), fine_names().end());
-  if (scenario.surroundings.on())
-    names.insert(names.end(), surrounding_names().begin(), surrounding_names().end());
-  return names;
 }
 
 namespace {

@@ -1,6 +1,5 @@
 #include "app/scene/moving_scene.h"
 
-#include "app/fines/seen_fines.h"
 #include "app/scene/build_scene.h"
 #include "kernel/robot/looks.h"
 
@@ -22,28 +21,27 @@ void include_keys(const TrackBody& body, Aabb& reach) {
 
 // Pieces that were lost in the end were there before: they come last, so that the others keep their
 // looks.
-void add_lost(const AssetLibrary& assets, const PileState& pile, Scene& scene) {
+void add_lost(const ClassLabels& labels, const AssetLibrary& assets, const PileState& pile, Scene& scene) {
   for (std::size_t i = 0; i < pile.pieces.size(); ++i) {
     const PieceState& piece = pile.pieces[i];
-    if (piece.status == PieceStatus::lost) scene.instances.push_back(make_instance(piece, i));
+    if (piece.status == PieceStatus::lost) scene.instances.push_back(make_instance(labels, piece, i));
   }
   set_building_cuts(assets, pile, scene);
 }
 
 // The number of what moves an instance: its own, and of a heap of fines that of the piece it lies on.
-std::int32_t find_mover(const SceneInstance& instance, const std::vector<int>& heap_hosts) {
+std::int32_t find_mover(const SceneInstance& instance, const Fines& fines) {
   if (instance.id < std::uint32_t(kFirstFineHeap)) return std::int32_t(instance.id);
   if (instance.surrounds) return -1;  // it stands
-  return heap_hosts[instance.id - std::uint32_t(kFirstFineHeap)];
+  return fines.heaps()[instance.id - std::uint32_t(kFirstFineHeap)].host;
 }
 
-// Sets what of the scene is in the track in motion, with the fines on it. heap_hosts: of all heaps of fines.
-void set_in_motion(const Track& track, const TrackWindow& window, std::int64_t zero_ns,
-                   const std::vector<int>& heap_hosts, Scene& scene) {
+// Sets what of the scene is in the track in motion, with the fines on it.
+void set_in_motion(const Track& track, const TrackWindow& window, std::int64_t zero_ns, const Fines& fines, Scene& scene) {
   std::vector<const TrackBody*> bodies;
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     SceneInstance& instance = scene.instances[i];
-    const TrackBody* const body = track.find(find_mover(instance, heap_hosts));
+    const TrackBody* const body = track.find(find_mover(instance, fines));
     if (!body) continue;
     if (track.rests_throughout(*body, window.from, window.to + kAround)) {
       instance.world_from_body = track.motion_at(*body, window.from)->world_from_body;
@@ -83,6 +81,14 @@ void add_robot(const RobotModel& model, int first_piece, std::uint16_t label, Sc
   }
 }
 
+Scene build_scene_with(const RobotTrack& robots, const Scenario& scenario, const AssetLibrary& assets, const PileState& pile) {
+  Scene scene = build_scene(scenario, assets, pile);
+  const std::uint16_t label = ClassLabels(scenario, assets.types).of_robots();
+  for (std::size_t i = 0; i < robots.models.size(); ++i)
+    add_robot(robots.models[i], robots.first_piece[i], label, scene);
+  return scene;
+}
+
 }  // namespace
 
 Scene build_moving_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
@@ -90,20 +96,16 @@ Scene build_moving_scene(const Scenario& scenario, const AssetLibrary& assets, c
   PileState without_fines = pile;  // they come when all rests
   without_fines.fines = {};
   Scene scene = build_scene(scenario, assets, without_fines);
-  add_lost(assets, pile, scene);
+  add_lost(ClassLabels(scenario, assets.types), assets, pile, scene);
   set_in_motion(track, window, zero_ns, {}, scene);
   return scene;
 }
 
 Scene build_robot_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
-                        const RobotTrack& robots, std::int64_t zero_ns) {
-  Scene scene = build_scene(scenario, assets, pile);
-  const std::uint16_t label = std::uint16_t(kFirstAssetLabel + assets.types.size());
-  for (std::size_t i = 0; i < robots.models.size(); ++i) {
-    add_robot(robots.models[i], robots.first_piece[i], label, scene);
-  }
-  set_in_motion(robots.track, {robots.track.begin(), robots.track.end()}, zero_ns, find_heap_hosts(pile),
-                scene);
+                        const RobotTrack& robots, std::int64_t start_ns) {
+  Scene scene = build_scene_with(robots, scenario, assets, pile);
+  scene.start_ns = start_ns;
+  set_in_motion(robots.track, {robots.track.begin(), robots.track.end()}, start_ns, pile.fines, scene);
   return scene;
 }
 
@@ -115,22 +117,18 @@ std::optional<Pose> pose_in_track(const Track& track, int id, std::int64_t since
 }
 
 Scene build_live_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
-                       const RobotTrack& robots, LivePose pose_of) {
-  Scene scene = build_scene(scenario, assets, pile);
-  const std::uint16_t label = std::uint16_t(kFirstAssetLabel + assets.types.size());
-  for (std::size_t i = 0; i < robots.models.size(); ++i) {
-    add_robot(robots.models[i], robots.first_piece[i], label, scene);
-  }
-  const std::vector<int> hosts = find_heap_hosts(pile);
+                       const RobotTrack& robots, std::int64_t start_ns, LivePose pose_of) {
+  Scene scene = build_scene_with(robots, scenario, assets, pile);
+  scene.start_ns = start_ns;
   const bool fixed_debris = scenario.robot_run.debris == DebrisMotion::fixed;
   std::vector<int> movers;
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-    const int mover = find_mover(scene.instances[i], hosts);
+    const int mover = find_mover(scene.instances[i], pile.fines);
     if (mover < 0) continue;  // it stands or lies on the ground
     const bool piece = std::size_t(mover) < pile.pieces.size();
     if (piece && (fixed_debris || pile.pieces[std::size_t(mover)].status == PieceStatus::fixed)) continue;
     scene.motion.moving.push_back(std::uint32_t(i));
-    if (const auto pose = pose_of(mover, scenario.start_ns)) scene.instances[i].world_from_body = *pose;
+    if (const auto pose = pose_of(mover, start_ns)) scene.instances[i].world_from_body = *pose;
     scene.motion.reach.include(scene.instances[i].world_from_body.translation);
     movers.push_back(mover);
   }

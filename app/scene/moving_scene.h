@@ -35,18 +35,17 @@ struct RobotTrack {
   bool empty() const { return models.empty(); }
 };
 
-// The scene of the settled pile with the robots, and all that they move. zero_ns: the stamp of the track's
-// time 0. robots: must live as long as the scene.
+// The scene of the settled pile with the robots, and all that they move. start_ns: the stamp of their time 0. robots: must live as long as the scene.
 Scene build_robot_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
-                        const RobotTrack& robots, std::int64_t zero_ns);
+                        const RobotTrack& robots, std::int64_t start_ns);
 
 // Where a piece or a link is, by its id, in what is drawn or scanned of that time; nothing: it is not there.
 using LivePose = std::function<std::optional<Pose>(int id, std::int64_t stamp_ns)>;
 // pose_of by a track that may still grow. since_ns: since its time 0.
 std::optional<Pose> pose_in_track(const Track& track, int id, std::int64_t since_ns);
 // The same while they are driven: nobody knows yet what will move. All that is not fixed is lit anew for every
-// picture. pose_of is asked for the start at once. robots: models and ids alone are looked at.
+// picture. start_ns: the stamp of their time 0, for which pose_of is asked at once. robots: models and ids alone are looked at.
 Scene build_live_scene(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile,
-                       const RobotTrack& robots, LivePose pose_of);
+                       const RobotTrack& robots, std::int64_t start_ns, LivePose pose_of);
 
 }  // namespace rubble

@@ -36,7 +36,7 @@ Pose SearchPose::world_from_body() const {
 
 SearchWorld::SearchWorld(const ResolvedMission& mission, const PileState& pile, const SearchRules& rules, int threads)
     : rules_(rules), queries_(pile, mission.assets.finest_meshes()),
-      world_(build_scene(mission.pile_scenario, mission.assets, pile)), rays_(search_camera(rules), rules.max_range),
+      world_(build_scene(mission.scenario, mission.assets, pile)), rays_(search_camera(rules), rules.max_range),
       pool_(threads), map_(make_map(mission, pile, rules, threads)), is_victim_(pile.pieces.size(), 0) {
   const std::vector<const TriangleMesh*> meshes = mission.assets.finest_meshes();
   for (const PieceState& piece : pile.pieces)

@@ -11,7 +11,7 @@
 #include "kernel/model/pile_state.h"
 #include "kernel/queries/queries.h"
 #include "kernel/voids/void_map.h"
-#include "render/lidar/depth_rays.h"
+#include "render/rays/depth_rays.h"
 
 namespace rubble {
 
@@ -52,7 +52,7 @@ class SearchWorld {
 
   SearchRules rules_;
   PileQueries queries_;
-  LidarWorld world_;
+  RayWorld world_;
   DepthRays rays_;
   mutable ThreadPool pool_;
   VoidMap map_;

@@ -12,24 +12,19 @@ namespace {
 
 constexpr double kFarthest = 1000;  // along a ray; unit: m
 
-DepthRays make_rays(const MountedCamera& camera, const std::string& key) {
+DepthRays make_rays(const MountedCamera& camera) {
   const Intrinsics k = camera.camera.intrinsics();
   const bool straight = std::all_of(k.distortion.begin(), k.distortion.end(), [](double d) { return d == 0; });
   if (camera.camera.lens.model == LensKind::fisheye || !straight)
-    throw InputError({"", 0, key + ".lens", "a controller cannot use this camera",
+    throw InputError({"", 0, camera.key() + ".lens", "a controller cannot use this camera",
                       "a pinhole", "a lens with distortion", "add a second camera without `lens` for the controller"});
   return DepthRays(k, kFarthest);
 }
 
 }  // namespace
 
-std::string camera_key(const Scenario& scenario, const MountedCamera& camera) {
-  return scenario.cameras.empty() ? "camera" : "cameras." + camera.name;
-}
-
-ExactDepth::ExactDepth(const MountedCamera& camera, const std::string& key, std::shared_ptr<LidarWorld> world,
-                       int threads)
-    : rays_(make_rays(camera, key)), world_(std::move(world)), pool_(threads) {}
+ExactDepth::ExactDepth(const MountedCamera& camera, std::shared_ptr<RayWorld> world, int threads)
+    : rays_(make_rays(camera)), world_(std::move(world)), pool_(threads) {}
 
 std::vector<float> ExactDepth::measure(std::int64_t stamp_ns, const Pose& world_from_camera) {
   const Intrinsics& k = rays_.intrinsics();

@@ -3,22 +3,18 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "kernel/base/parallel.h"
-#include "render/lidar/depth_rays.h"
+#include "render/rays/depth_rays.h"
 #include "scripting/scenario/scenario.h"
 
 namespace rubble {
 
-// Key of a camera in the mission.
-std::string camera_key(const Scenario& scenario, const MountedCamera& camera);
-
 class ExactDepth {
  public:
-  // key: of the camera in the mission. Throws InputError for a lens that is no pinhole.
-  ExactDepth(const MountedCamera& camera, const std::string& key, std::shared_ptr<LidarWorld> world, int threads);
+  // Throws InputError for a lens that is no pinhole.
+  ExactDepth(const MountedCamera& camera, std::shared_ptr<RayWorld> world, int threads);
 
   const Intrinsics& intrinsics() const { return rays_.intrinsics(); }
   // As Frame::depth, of everything where it is at that stamp.
@@ -26,7 +22,7 @@ class ExactDepth {
 
  private:
   DepthRays rays_;
-  std::shared_ptr<LidarWorld> world_;
+  std::shared_ptr<RayWorld> world_;
   ThreadPool pool_;
 };
 

@@ -31,12 +31,13 @@ struct RobotReadings {
   ContactHistory contacts;                 // of their links
   std::vector<FeltLinks> felt;             // by sensor of the scenario; empty without robots
 
-  // Of what rides there; `rig` where nothing carries it.
+  // Of what rides there; `rig` where nothing carries it; null: no robot was driven.
   const std::shared_ptr<const MotionPath>& path_of(const Carrier& carrier,
                                                    const std::shared_ptr<const MotionPath>& rig) const;
-  // Stamp after which a sensor has nothing to say: on a link when the robot is no longer driven. last_ns: of the
-  // last frame.
-  std::int64_t end_of(const Carrier& carrier, std::int64_t start_ns, std::int64_t last_ns) const;
+  // Stamp after which a sensor has nothing to say: when the way of its carrier ends, as that of a link does when its robot
+  // is lost or no longer driven. start_ns: stamp of the time 0 of all ways. last_ns: of the last frame.
+  std::int64_t end_of(const Carrier& carrier, const std::shared_ptr<const MotionPath>& rig, std::int64_t start_ns,
+                      std::int64_t last_ns) const;
 };
 
 }  // namespace rubble

@@ -1,158 +1,88 @@
 #include "app/sensors/sensor_suite.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
-#include "app/sensors/build_imu.h"
-#include "app/sensors/lidar_sensor.h"
-#include "app/sensors/reading_sensor.h"
-#include "render/sensors/camera.h"
-#include "scripting/trajectory/imu.h"
-#include "scripting/trajectory/trajectory.h"
+#include "app/sensors/camera_sensor.h"
 
 namespace rubble {
 namespace {
 
-CameraSpec spec_of(const Scenario& flown, const MountedCamera& mounted, int number, const SensorBegin& begin,
-                   int threads) {
-  CameraSpec spec = build_camera(flown, mounted, threads);
-  spec.number = number;
-  spec.seed = camera_seed(flown, mounted, begin.noise_seed);
-  return spec;
-}
-
-// A camera on its mount.
-class CameraSensor : public Sensor {
- public:
-  CameraSensor(const Scenario& flown, const MountedCamera& mounted, int number,
-               const RigFlight& flight, const SensorBegin& begin, Renderer& renderer, int threads)
-      : flight_(flight.cameras[std::size_t(number)]),
-        mounted_(mounted),
-        number_(number),
-        first_frame_(begin.frames.empty() ? 0 : begin.frames[std::size_t(number)]),
-        start_ns_(flown.start_ns),
-        path_(flight.carriers[std::size_t(number)]),
-        camera_(renderer, spec_of(flown, mounted, number, begin, threads), flight_) {}
-
-  int frames() const { return camera_.frames(); }
-  std::int64_t last_stamp() const { return flight_.stamps_ns.back(); }
-
-  std::optional<std::int64_t> next_stamp() const override {
-    if (next_ >= camera_.frames()) return std::nullopt;
-    return flight_.stamps_ns[std::size_t(next_)];
-  }
-
-  Sample take() override {
-    Frame frame = camera_.take(next_++);
-    frame.sensor = number_;
-    frame.starts_sequence = frame.index == 0;
-    frame.index += first_frame_;
-    const CameraMotion motion = path_->motion_at(double(frame.stamp_ns - start_ns_) * 1e-9);
-    frame.rig_velocity = frame.linear_velocity = motion.velocity;
-    if (mounted_.is_rig()) return frame;
-    frame.world_from_rig = motion.world_from_camera;
-    const Vec3 turning = cross(motion.angular_velocity, mounted_.position);
-    frame.linear_velocity += motion.world_from_camera.rotation.rotate(turning);
-    return frame;
-  }
-
- private:
-  Flight flight_;
-  MountedCamera mounted_;
-  int number_, first_frame_, next_ = 0;
-  std::int64_t start_ns_;
-  std::shared_ptr<const MotionPath> path_;
-  Camera camera_;
-};
-
-// As long as any camera has frames.
-class ImuSensor : public Sensor {
- public:
-  ImuSensor(const ImuScenario& imu, int number, const Scenario& flown, std::uint64_t noise_seed,
-            std::int64_t last_ns, std::shared_ptr<const MotionPath> path)
-      : number_(number),
-        last_ns_(last_ns),
-        path_(std::move(path)),
-        imu_(build_imu(flown, imu, noise_seed, *path_)) {}
-
-  std::optional<std::int64_t> next_stamp() const override {
-    const std::int64_t stamp = imu_.next_stamp();
-    return stamp <= last_ns_ ? std::optional(stamp) : std::nullopt;
-  }
-  Sample take() override {
-    ImuSample sample = imu_.take();
-    sample.sensor = number_;
-    return sample;
-  }
-
- private:
-  int number_;
-  std::int64_t last_ns_;
-  std::shared_ptr<const MotionPath> path_;
-  Imu imu_;
-};
-
-// What a robot sensed when it was driven, as long as any camera has frames.
+// What a robot sensed when it was driven.
 class RobotSensor : public Sensor {
  public:
-  RobotSensor(const std::vector<RobotSample>& samples, std::int64_t last_ns)
-      : samples_(samples), last_ns_(last_ns) {}
+  explicit RobotSensor(const std::vector<RobotSample>& samples) : samples_(samples) {}
 
-  std::optional<std::int64_t> next_stamp() const override {
-    if (next_ >= samples_.size() || samples_[next_].stamp_ns > last_ns_) return std::nullopt;
-    return samples_[next_].stamp_ns;
+  Needs needs() const override {
+    Needs needs;
+    needs.stamp = needs.end = next_ < samples_.size() ? samples_[next_].stamp_ns : INT64_MAX;
+    return needs;
   }
   Sample take() override { return samples_[next_++]; }
 
  private:
   const std::vector<RobotSample>& samples_;
-  std::int64_t last_ns_;
   std::size_t next_ = 0;
 };
 
+// The first stamp of readings at this rate that is not before that one.
+std::int64_t stamp_from(std::int64_t at_ns, std::int64_t start_ns, double rate_hz) {
+  const auto stamp = [&](double k) { return start_ns + std::int64_t(std::floor(k * 1e9 / rate_hz + 0.5)); };
+  double k = std::floor(double(at_ns - start_ns) * 1e-9 * rate_hz);
+  while (stamp(k) < at_ns) ++k;
+  return stamp(k);
+}
+
+std::int64_t stamp_from(std::int64_t at_ns, const std::vector<RobotSample>& samples) {
+  const auto first = std::find_if(samples.begin(), samples.end(), [&](const RobotSample& s) { return s.stamp_ns >= at_ns; });
+  return first == samples.end() ? at_ns : first->stamp_ns;
+}
+
 }  // namespace
 
-SensorSuite::SensorSuite(const Scenario& flown, const RigFlight& flight, const SensorBegin& begin,
-                         const Scene& scene, Renderer& renderer, int threads,
+SensorSuite::SensorSuite(const Scenario& scenario, const RigFlight& flight, const SensorBegin& begin,
+                         const Scene& scene, CameraRenderers& renderers, int threads,
                          const RobotReadings& robots) {
-  std::vector<std::unique_ptr<Sensor>> cameras;
+  const bool rays = casts_rays(scenario.sensors);
+  const SensorParts parts{scenario, begin.noise_seed, flight.start_ns, robots, flight.path, rays ? std::make_shared<RayWorld>(scene) : nullptr,
+                          std::make_shared<const Medium>(renderers.medium()), threads};
   std::int64_t last_ns = 0;
-  for (const MountedCamera& mounted : all_cameras(flown)) {
-    auto camera = std::make_unique<CameraSensor>(flown, mounted, int(cameras.size()), flight, begin,
-                                                 renderer, threads);
-    frames_.push_back(camera->frames());
-    last_ns = std::max(last_ns, camera->last_stamp());
-    cameras.push_back(std::move(camera));
+  for (const Flight& camera : flight.cameras) {
+    frames_.push_back(int(camera.stamps_ns.size()));
+    if (!camera.stamps_ns.empty()) last_ns = std::max(last_ns, camera.stamps_ns.back());
   }
+  const auto add = [this](std::unique_ptr<Sensor> sensor, std::int64_t last) { members_.push_back({std::move(sensor), last}); };
+  const auto is_there = [&](const Carrier& carrier) { return robots.path_of(carrier, flight.path) != nullptr; };
+  const auto end_of = [&](const Carrier& carrier, std::int64_t last) {
+    return robots.end_of(carrier, flight.path, flight.start_ns, last);
+  };
   for (const std::vector<RobotSample>& samples : robots.samples)
-    sensors_.push_back(std::make_unique<RobotSensor>(samples, last_ns));
-  int number = 0;
-  for (const ImuScenario& imu : all_imus(flown))
-    sensors_.push_back(std::make_unique<ImuSensor>(imu, number++, flown, begin.noise_seed,
-                                                   robots.end_of(imu.ride, flown.start_ns, last_ns),
-                                                   robots.path_of(imu.ride, flight.path)));
-  const auto world = flown.lidars.empty() && !needs_rays(flown.sensors) ? nullptr : std::make_shared<LidarWorld>(scene);
-  for (auto& lidar : make_lidar_sensors(flown, world, renderer.medium(), begin.noise_seed, last_ns,
-                                        flight.path, robots, threads))
-    sensors_.push_back(std::move(lidar));
-  for (std::size_t i = 0; i < flown.sensors.size(); ++i) {
-    const Carrier& ride = flown.sensors[i].ride;
-    sensors_.push_back(std::make_unique<ReadingSensor>(flown, int(i), begin.noise_seed, robots.end_of(ride, flown.start_ns, last_ns),
-                                                       robots.path_of(ride, flight.path), world, forces_of(robots, i)));
+    add(std::make_unique<RobotSensor>(samples), stamp_from(last_ns, samples));
+  for (std::size_t i = 0; i < scenario.imus.size(); ++i) {
+    const ImuScenario& imu = scenario.imus[i];
+    if (!is_there(imu.ride)) continue;
+    add(make_imu(parts, i), end_of(imu.ride, stamp_from(last_ns, flight.start_ns, imu.model.rate_hz)));
   }
-  for (auto& camera : cameras) sensors_.push_back(std::move(camera));
+  for (std::size_t i = 0; i < scenario.sensors.size(); ++i)
+    if (is_there(scenario.sensors[i].ride)) add(make_sensor(parts, i), end_of(scenario.sensors[i].ride, last_ns));
+  for (std::size_t i = 0; i < flight.cameras.size(); ++i)
+    if (is_there(scenario.cameras[i].ride))
+      add(make_flown_camera(parts, i, flight, begin.frames.empty() ? 0 : begin.frames[i], renderers.of(i)), last_ns);
 }
 
 int SensorSuite::count_frames() const { return std::accumulate(frames_.begin(), frames_.end(), 0); }
 
 std::optional<Sample> SensorSuite::take() {
-  Sensor* first = nullptr;
-  for (const auto& sensor : sensors_) {
-    const auto stamp = sensor->next_stamp();
-    if (stamp && (!first || *stamp < *first->next_stamp())) first = sensor.get();
+  Member* first = nullptr;
+  std::int64_t stamp = INT64_MAX;
+  for (Member& member : members_) {
+    const Sensor::Needs next = member.sensor->needs();
+    if (next.stamp < stamp && !is_over(next, member.last_ns, member.taken)) first = &member, stamp = next.stamp;
   }
   if (!first) return std::nullopt;
-  return first->take();
+  first->taken = true;
+  return first->sensor->take();
 }
 
 }  // namespace rubble

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "app/sensors/build_camera.h"
+#include "app/sensors/camera_renderers.h"
 #include "app/sensors/robot_readings.h"
-#include "render/renderer.h"
+#include "app/sensors/sensor.h"
 #include "render/scene/sample.h"
 #include "scripting/scenario/scenario.h"
 
@@ -20,14 +21,16 @@ struct SensorBegin {
   std::vector<int> frames;       // number of each camera's first frame; empty: 0
 };
 
-// All sensors on the rig and on links of robots, and the readings of robots, merged by stamp. Samples with equal stamps
-// come in this order: robots, inertial units, LiDARs, other sensors, cameras in the order of all_cameras(). The renderer and the
+// All sensors on the rig and on links of robots, and the readings of robots, merged by stamp. Each ends with the way of its
+// carrier, and all end with the last frame. Robots and inertial units go on to their first sample that is not before it, so
+// that their readings about the last picture and the last scan are known. Samples with equal stamps
+// come in this order: robots, inertial units, other sensors, cameras, each in the order of the scenario. The renderers and the
 // readings must outlive the suite.
 class SensorSuite {
  public:
-  // flown: the scenario with the resolved path, from which `flight` was made. scene: the scene of the renderer.
-  SensorSuite(const Scenario& flown, const RigFlight& flight, const SensorBegin& begin, const Scene& scene,
-              Renderer& renderer, int threads, const RobotReadings& robots);
+  // flight: of the scenario's cameras. robots: empty before they are driven: what they carry is not there then. scene: the scene of the renderers.
+  SensorSuite(const Scenario& scenario, const RigFlight& flight, const SensorBegin& begin, const Scene& scene,
+              CameraRenderers& renderers, int threads, const RobotReadings& robots);
 
   // Number of frames of each camera in the flight.
   const std::vector<int>& frames() const { return frames_; }
@@ -36,8 +39,13 @@ class SensorSuite {
   std::optional<Sample> take();
 
  private:
+  struct Member {
+    std::unique_ptr<Sensor> sensor;
+    std::int64_t last_ns = 0;  // no sample begins later
+    bool taken = false;        // whether it has given one
+  };
   std::vector<int> frames_;
-  std::vector<std::unique_ptr<Sensor>> sensors_;
+  std::vector<Member> members_;
 };
 
 }  // namespace rubble

@@ -1,6 +1,7 @@
 // What the robots of a mission did.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace rubble {
 
 // Results of the robots of a mission; empty without robots.
 struct DrivenRobots {
+  std::int64_t start_ns = 0;         // stamp of their time 0
   RobotTrack moved;                  // motion of the robots and of the pieces that they moved
   RobotReadings readings;            // of their sensors, and the path of a rig on a robot
   std::vector<RobotRecord> records;  // for recorders

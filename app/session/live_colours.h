@@ -1,17 +1,12 @@
-// What cameras on robots show while the robots are driven: the pictures of their sensors, developed.
+// What cameras on robots show while the robots are driven: renderers of their own, of the scene that goes on.
 //
-// A picture is drawn when its exposure has ended. It has the bits of the recorded one, whose scene is lit in the same way
+// Its pictures have the bits of the recorded ones, which are drawn by such renderers of a scene that is lit in the same way
 // then: build_live_scene().
 #pragma once
 
-#include <memory>
-#include <vector>
-
-#include "app/session/live_sensors.h"
+#include "app/sensors/camera_renderers.h"
 #include "render/gl/gl_context.h"
-#include "render/renderer.h"
 #include "render/scene/scene.h"
-#include "scripting/scenario/scenario.h"
 
 namespace rubble {
 
@@ -24,17 +19,18 @@ struct LiveColoursOptions {
 // The scene as it is drawn for cameras that are sensed.
 class LiveColours {
  public:
-  // scene: shows everything where the history of the sensors has it. The scenario's colours are drawn by the fast
-  // renderer. Throws RunError as GlContext and Renderer do.
-  LiveColours(const Scene& scene, const LiveColoursOptions& options);
+  // scene: shows everything where the history of the sensors has it. drawn: numbers of the cameras. Throws RunError as
+  // GlContext and Renderer do.
+  LiveColours(const Scene& scene, const std::vector<MountedCamera>& cameras, const std::vector<std::size_t>& drawn,
+              const LiveColoursOptions& options)
+      : gl_({options.gl_device, options.threads}),
+        renderers_(scene, cameras, drawn, gl_, {options.threads, options.progress, {}}) {}
 
-  // Frames of colour alone. number: among all_cameras(). This must outlive the sensor. Throws InputError where no robot
-  // carries it.
-  std::unique_ptr<LiveSensor> make_eye(const LiveSensorParts& parts, std::size_t number);
+  Renderer& renderer_of(std::size_t camera) { return renderers_.of(camera); }
 
  private:
   GlContext gl_;
-  Renderer renderer_;
+  CameraRenderers renderers_;
 };
 
 }  // namespace rubble

@@ -9,9 +9,17 @@
 #include "kernel/world/world_robots.h"
 
 namespace rubble {
+namespace {
 
-PoseHistory::PoseHistory(const Scenario& scenario, const std::vector<MissionRobot>& robots, double step)
-    : names_(robot_names(scenario.robots)), robots_(robots), start_ns_(scenario.start_ns), step_(step), felt_(!scenario.sensors.empty()) {
+bool feel_contacts(const std::vector<SensorItem>& sensors) {
+  return std::any_of(sensors.begin(), sensors.end(), [](const SensorItem& s) { return s.figures->feels_contacts(); });
+}
+
+}  // namespace
+
+PoseHistory::PoseHistory(const Scenario& scenario, const std::vector<MissionRobot>& robots, double step,
+                         std::int64_t start_ns)
+    : names_(robot_names(scenario.robots)), robots_(robots), start_ns_(start_ns), step_(step), felt_(feel_contacts(scenario.sensors)) {
   const auto add_link = [&](const Carrier& carrier, const std::string& key) {
     const auto same = [&](const LinkWay& link) { return link.carrier == carrier; };
     if (!carrier.on() || std::any_of(ways_.links.begin(), ways_.links.end(), same)) return;
@@ -24,10 +32,8 @@ PoseHistory::PoseHistory(const Scenario& scenario, const std::vector<MissionRobo
     rig_ = 0;
     ways_.ride = mounts_.back().way;
   }
-  for (const MountedCamera& camera : scenario.cameras) add_link(camera.ride, "cameras." + camera.name + ".ride");
-  for (const LidarScenario& lidar : scenario.lidars) add_link(lidar.ride, "lidars." + lidar.name + ".ride");
-  add_link(scenario.imu.ride, "imu.ride");
-  for (const ImuScenario& imu : scenario.imus) add_link(imu.ride, "imus." + imu.name + ".ride");
+  for (const MountedCamera& camera : scenario.cameras) add_link(camera.ride, camera.key() + ".ride");
+  for (const ImuScenario& imu : scenario.imus) add_link(imu.ride, imu.key() + ".ride");
   for (const SensorItem& sensor : scenario.sensors) add_link(sensor.ride, sensor.key() + ".ride");
   ways_.felt = find_felt_links(scenario, robots);
 }
@@ -41,26 +47,33 @@ void PoseHistory::add(const Carrier& carrier, const Pose& link_from_carrier, con
   mounts_.push_back(std::move(mount));
 }
 
-const std::shared_ptr<const MotionPath>& PoseHistory::way_of(const Carrier& carrier, const std::string& key) const {
-  const std::shared_ptr<const MotionPath>& way = ways_.path_of(carrier, ways_.ride);
-  if (way) return way;
-  throw InputError({"", 0, key, "no robot carries it", "`ride`, or `trajectory.ride` for the rig that it is on", "", ""});
+PieceState PoseHistory::state_of(const Mount& mount) const {
+  const World& world = run_->world();
+  return world.piece(world.robots().first_piece(int(mount.robot)) + int(mount.link));
 }
 
-Pose PoseHistory::place(const Mount& mount) const {
-  const World& world = run_->world();
-  return world.piece(world.robots().first_piece(int(mount.robot)) + int(mount.link)).world_from_body * mount.link_from_rider;
-}
+Pose PoseHistory::place(const Mount& mount) const { return state_of(mount).world_from_body * mount.link_from_rider; }
 
 Pose PoseHistory::world_from_rig() const { return place(mounts_.at(std::size_t(rig_))); }
 
-std::optional<Pose> PoseHistory::world_from(const Carrier& carrier) const {
-  const std::size_t rigs = rig_ < 0 ? 0 : 1;  // the rig comes first, then the links in their order
-  if (!carrier.on() && rigs == 0) return std::nullopt;
-  if (!carrier.on()) return world_from_rig();
+// The rig comes first, then the links in their order.
+const PoseHistory::Mount* PoseHistory::find(const Carrier& carrier) const {
+  const std::size_t rigs = rig_ < 0 ? 0 : 1;
+  if (!carrier.on()) return rigs == 0 ? nullptr : &mounts_[0];
   for (std::size_t i = 0; i < ways_.links.size(); ++i)
-    if (ways_.links[i].carrier == carrier) return place(mounts_[rigs + i]);
-  return std::nullopt;
+    if (ways_.links[i].carrier == carrier) return &mounts_[rigs + i];
+  return nullptr;
+}
+
+std::optional<Pose> PoseHistory::world_from(const Carrier& carrier) const {
+  const Mount* const mount = find(carrier);
+  return mount ? std::optional(place(*mount)) : std::nullopt;
+}
+
+std::optional<std::int64_t> PoseHistory::end_of(const Carrier& carrier) const {
+  const Mount* const mount = find(carrier);
+  if (!mount || !mount->lost) return std::nullopt;
+  return ways_.end_of(carrier, ways_.ride, start_ns_, INT64_MAX);
 }
 
 std::optional<RigMount> PoseHistory::mount(const std::vector<RobotRecord>& records) const {
@@ -71,13 +84,18 @@ std::optional<RigMount> PoseHistory::mount(const std::vector<RobotRecord>& recor
 
 void PoseHistory::restart(const RobotRun& run) {
   run_ = &run;
-  for (Mount& mount : mounts_) mount.way->clear();
+  for (Mount& mount : mounts_) mount.way->clear(), mount.lost = false;
   for (Mount& mount : mounts_) mount.way->add(place(mount));
   ways_.contacts = ContactHistory(step_);
 }
 
 void PoseHistory::note_step() {
-  for (Mount& mount : mounts_) mount.way->add(place(mount));
+  for (Mount& mount : mounts_) {
+    const PieceState link = state_of(mount);
+    mount.lost = link.status == PieceStatus::lost;
+    // A way has two poses at least: of a link that is lost in the first step both are that of its start.
+    if (!mount.lost || run_->steps() == 1) mount.way->add(link.world_from_body * mount.link_from_rider);
+  }
   if (felt_) ways_.contacts.note(run_->world(), int(robots_.size()));
 }
 

@@ -22,19 +22,20 @@ namespace rubble {
 
 class PoseHistory {
  public:
-  // Of all carriers of the scenario. step: unit: s; > 0. Throws InputError, with the key of the ride, for a link that the
+  // Of all carriers of the scenario. step: unit: s; > 0. start_ns: stamp of the robots' time 0. Throws InputError, with the key of the ride, for a link that the
   // robot has not.
-  PoseHistory(const Scenario& scenario, const std::vector<MissionRobot>& robots, double step);
+  PoseHistory(const Scenario& scenario, const std::vector<MissionRobot>& robots, double step, std::int64_t start_ns);
 
   // At the robots' time 0, when it has begun; forgets all before. run: must outlive what is asked.
   void restart(const RobotRun& run);
-  void note_step();  // after each step of the run
+  // After each step of the run. The way of a lost robot's links ends with the last step before.
+  void note_step();
 
   // Of the rig and of each link that carries sensors of its own, and the contacts of links; they grow.
   const RobotReadings& ways() const { return ways_; }
-  // The way of what is on `carrier`, or on the rig. Throws InputError, with the key of the sensor, where no robot carries it.
-  const std::shared_ptr<const MotionPath>& way_of(const Carrier& carrier, const std::string& key) const;
   Pose world_from_rig() const;                                             // now; the rig must be on a robot
+  // Stamp of the end of the way of what carries a sensor, when its robot was lost; nothing: it goes on.
+  std::optional<std::int64_t> end_of(const Carrier& carrier) const;
   // Now, of what carries a sensor: the rig where `carrier` names no robot. Nothing: no robot carries it.
   std::optional<Pose> world_from(const Carrier& carrier) const;
   std::optional<RigMount> mount(const std::vector<RobotRecord>& records) const;  // of the rig
@@ -51,8 +52,11 @@ class PoseHistory {
   struct Mount : RiddenLink {
     std::size_t robot = 0;
     std::shared_ptr<SimulatedPath> way;
+    bool lost = false;  // the link left the world
   };
   void add(const Carrier& carrier, const Pose& link_from_carrier, const std::string& key);
+  const Mount* find(const Carrier& carrier) const;  // null: no robot carries it
+  PieceState state_of(const Mount& mount) const;    // of the link
   Pose place(const Mount& mount) const;
 
   std::vector<std::string> names_;  // of the robots

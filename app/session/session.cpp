@@ -7,9 +7,8 @@
 #include "app/control/robot_control.h"
 #include "app/control/robot_senses.h"
 #include "app/control/script_control.h"
-#include "app/sensors/reading_sensor.h"
+#include "app/sensors/camera_sensor.h"
 #include "app/session/live_colours.h"
-#include "app/session/live_sensors.h"
 #include "kernel/world/world_robots.h"
 
 namespace rubble {
@@ -33,13 +32,16 @@ Session::Session(const ResolvedMission& mission, const PileState& pile, std::vec
       pile_(pile),
       context_(context),
       options_(options),
+      start_ns_(options.start_ns.value_or(scenario_.start_ns)),
       run_options_(robot_run_options(scenario_, context.threads())),
       laid_(make_laid_pile(mission, pile)),
       names_(robot_names(scenario_.robots)),
       robots_(std::move(robots)),
       records_(describe_robots(scenario_, robots_)),
-      history_(scenario_, robots_, run_options_.step),
-      own_(robots_.size()) {
+      history_(scenario_, robots_, run_options_.step, start_ns_),
+      own_(robots_.size()),
+      bases_(robots_.size()) {
+  run_options_.restarts = options.restarts;
   for (const MissionRobot& robot : robots_) seen_.models.push_back(robot.model);
 }
 
@@ -67,17 +69,18 @@ RobotController Session::make_controller(std::size_t robot) {
 
 void Session::start() {
   script_ = nullptr;
-  senses_ = std::make_unique<RobotSenses>(scenario_);
+  senses_ = std::make_unique<RobotSenses>(scenario_, start_ns_);
   commands_.assign(robots_.size(), std::nullopt);
   sensors_.clear(), measured_.clear(), logs_.clear(), seen_.first_piece.clear();
-  run_ = std::make_unique<RobotRun>(laid_, pile_, run_options_);
+  if (run_ && options_.restarts) run_->restart();
+  else run_ = std::make_unique<RobotRun>(laid_, pile_, run_options_);
   for (std::size_t i = 0; i < robots_.size(); ++i)
-    logs_.emplace_back(robots_[i].model, scenario_.start_ns, odometry_noise(scenario_, i));
+    logs_.emplace_back(robots_[i].model, start_ns_, odometry_noise(scenario_, i));
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const RobotController own = make_controller(i);
     const RobotController control = with_mimics(
         [this, i, own](const RobotSense& sense) { return commands_[i] ? *commands_[i] : own(sense); }, robots_[i].model.mimics);
-    run_->add(robots_[i].model, calc_base_pose(scenario_.robots[i], robots_[i]),
+    run_->add(robots_[i].model, bases_[i] ? *bases_[i] : calc_base_pose(scenario_.robots[i], robots_[i]),
               [this, control, &log = logs_[i]](const RobotSense& sense) {
                 if (options_.observed || options_.recorded) log.note(sense);
                 return control(sense);
@@ -89,38 +92,39 @@ void Session::start() {
   make_sensors();
 }
 
-// Units of inertia, LiDARs, other kinds, depth and colours: the order of samples whose stamps are equal.
+// Units of inertia, other kinds, depth and colours: the order of samples whose stamps are equal.
 void Session::make_sensors() {
-  auto [lidars, readings, depths, colours, imus] = script_ ? senses_->sensed() : RobotSenses::Sensed();
+  auto [readings, depths, colours, imus] = script_ ? senses_->sensed() : RobotSenses::Sensed();
   const auto add = [](std::vector<std::size_t>& list, const std::vector<std::size_t>& more) {
     for (const std::size_t i : more)
       if (std::find(list.begin(), list.end(), i) == list.end()) list.push_back(i);
     std::sort(list.begin(), list.end());
   };
   if (options_.observed) {
-    add(imus, find_carried(all_imus(scenario_), history_.ways()));
-    add(lidars, find_carried(scenario_.lidars, history_.ways()));
+    add(imus, find_carried(scenario_.imus, history_.ways()));
     add(readings, find_carried(scenario_.sensors, history_.ways()));
   }
-  if (options_.depth) add(depths, find_carried(all_cameras(scenario_), history_.ways()));
-  const bool rays = !lidars.empty() || !depths.empty() || (!readings.empty() && needs_rays(scenario_.sensors));
+  if (options_.depth) add(depths, find_carried(scenario_.cameras, history_.ways()));
+  const bool rays = !depths.empty() || (!readings.empty() && casts_rays(scenario_.sensors));
   if (imus.empty() && readings.empty() && !rays && colours.empty()) return;
   Scene scene;
   if ((rays && !world_of_rays_) || (!colours.empty() && !colours_))
-    scene = build_live_scene(scenario_, mission_.assets, pile_, seen_,
+    scene = build_live_scene(scenario_, mission_.assets, pile_, seen_, start_ns_,
                              [this](int id, std::int64_t stamp_ns) { return history_.pose_of(id, stamp_ns); });
-  if (rays && !world_of_rays_) world_of_rays_ = std::make_shared<LidarWorld>(scene);
-  const LiveSensorParts parts{scenario_, history_, world_of_rays_, Medium(scenario_.air, scenario_.seed), context_.threads()};
-  for (const std::size_t i : imus) sensors_.push_back(make_live_imu(parts, i));
-  for (const std::size_t i : lidars) sensors_.push_back(make_live_lidar(parts, i));
-  for (const std::size_t i : readings) sensors_.push_back(make_live_reading(parts, i));
-  for (const std::size_t i : depths) sensors_.push_back(make_live_depth(parts, i));
+  if (rays && !world_of_rays_) world_of_rays_ = std::make_shared<RayWorld>(scene);
+  const SensorParts parts{scenario_, scenario_.seed, start_ns_, history_.ways(), history_.ways().ride, world_of_rays_,
+                          std::make_shared<const Medium>(scenario_.air, scenario_.seed), context_.threads()};
+  for (const std::size_t i : imus) sensors_.push_back({make_imu(parts, i), scenario_.imus[i].ride});
+  for (const std::size_t i : readings) sensors_.push_back({make_sensor(parts, i), scenario_.sensors[i].ride});
+  for (const std::size_t i : depths) sensors_.push_back({make_depth_sensor(parts, i), scenario_.cameras[i].ride});
   if (!colours.empty() && !colours_)
     colours_ = std::make_unique<LiveColours>(
-        scene, LiveColoursOptions{context_.options.gl_device, context_.threads(), [this](double done) {
-                                    context_.progress.update(0, "light " + std::to_string(int(100 * done)) + " %");
-                                  }});
-  for (const std::size_t i : colours) sensors_.push_back(colours_->make_eye(parts, i));
+        scene, scenario_.cameras, colours,
+        LiveColoursOptions{context_.options.gl_device, context_.threads(), [this](double done) {
+                             context_.progress.update(0, "light " + std::to_string(int(100 * done)) + " %");
+                           }});
+  for (const std::size_t i : colours)
+    sensors_.push_back({make_riding_camera(parts, i, colours_->renderer_of(i)), scenario_.cameras[i].ride});
 }
 
 void Session::step() {
@@ -132,10 +136,13 @@ void Session::step() {
 void Session::measure() {
   const std::int64_t way = history_.ways_known_until(), track = history_.track_known_until();
   std::int64_t needed = way;
-  for (const auto& sensor : sensors_) {
-    LiveSensor::Needs needs = sensor->needs();
-    for (; needs.way_until <= way && needs.scene_until <= track; needs = sensor->needs()) {
-      Sample sample = sensor->take();
+  for (Carried& carried : sensors_) {
+    const std::int64_t end = history_.end_of(carried.carrier).value_or(INT64_MAX);
+    Sensor::Needs needs = carried.sensor->needs();
+    for (; needs.way_until <= way && needs.scene_until <= track; needs = carried.sensor->needs()) {
+      if (is_over(needs, end, carried.taken)) break;
+      carried.taken = true;
+      Sample sample = carried.sensor->take();
       senses_->hear(sample);
       if (options_.observed || options_.depth) measured_.push_back(std::move(sample));
     }
@@ -158,6 +165,7 @@ std::vector<Sample> Session::observe() {
 
 DrivenRobots Session::finish() {
   DrivenRobots driven;
+  driven.start_ns = start_ns_;
   driven.readings = history_.ways();
   const World& world = run_->world();
   for (std::size_t i = 0; i < robots_.size(); ++i) {
@@ -177,7 +185,7 @@ DrivenRobots Session::finish() {
 }
 
 Scene Session::build_scene(const Scenario& drawn) const {
-  return build_live_scene(drawn, mission_.assets, pile_, seen_, [this](int id, std::int64_t) -> std::optional<Pose> {
+  return build_live_scene(drawn, mission_.assets, pile_, seen_, start_ns_, [this](int id, std::int64_t) -> std::optional<Pose> {
     const PieceState piece = run_->world().piece(id);
     if (piece.status == PieceStatus::lost) return std::nullopt;
     return piece.world_from_body;

@@ -26,16 +26,18 @@
 namespace rubble {
 
 class LiveColours;
-class LiveSensor;
-class LidarWorld;
+class RayWorld;
 class RobotSenses;
 class ScriptControl;
+class Sensor;
 
-// What is measured besides what the functions of robots are told.
+// What is measured besides what the functions of robots are told, and when it starts.
 struct SessionOptions {
-  bool observed = false;  // robots, inertial units and LiDARs on robots, for observe()
+  bool observed = false;  // robots and the sensors on them, for observe()
   bool depth = false;     // and the exact depth of the cameras on robots
   bool recorded = false;  // all is kept, for finish()
+  bool restarts = false;  // start() is called more than once: the pile is laid the first time only
+  std::optional<std::int64_t> start_ns{};  // stamp of the robots' time 0; not given: the mission's
 };
 
 class Session {
@@ -50,6 +52,8 @@ class Session {
 
   // Instead of what the mission says, from the next start() on.
   void set_controller(std::size_t robot, RobotController controller);
+  // The pose of its first link instead of the mission's, from the next start() on; nothing: as the mission says again.
+  void place(std::size_t robot, const std::optional<Pose>& world_from_base) { bases_[robot] = world_from_base; }
   // Instead of what its controller says, from its next control step on; nothing: as the controller says again. Joints that
   // mimic others follow.
   void command(std::size_t robot, std::optional<RobotCommand> command) { commands_[robot] = std::move(command); }
@@ -78,6 +82,8 @@ class Session {
   std::optional<Pose> world_from(const Carrier& carrier) const { return history_.world_from(carrier); }
   // From outside, on a piece or a link, before the next step: see World::apply_impulse(). No mission says this again.
   void apply_impulse(int piece, const Vec3& point, const Vec3& impulse) { run_->apply_impulse(piece, point, impulse); }
+  // Ways of what carries sensors so far, on to now: between the last two steps they may still change a little.
+  const RobotReadings& ways() const { return history_.ways(); }
   // The scene with everything where it is when it is drawn. drawn: the scenario of the camera. It must not outlive this.
   Scene build_scene(const Scenario& drawn) const;
 
@@ -92,6 +98,7 @@ class Session {
   const PileState& pile_;
   RunContext& context_;
   SessionOptions options_;
+  std::int64_t start_ns_;
   RobotRunOptions run_options_;
   Pile laid_;
   std::vector<std::string> names_;
@@ -99,15 +106,21 @@ class Session {
   std::vector<RobotRecord> records_;
   PoseHistory history_;
   std::vector<RobotController> own_;  // none: as the mission says
+  std::vector<std::optional<Pose>> bases_;
   std::vector<std::optional<RobotCommand>> commands_;
   RobotTrack seen_;                   // models and ids
   std::unique_ptr<RobotRun> run_;
   std::vector<RobotLog> logs_;
   std::unique_ptr<RobotSenses> senses_;
   std::unique_ptr<ScriptControl> script_;
-  std::shared_ptr<LidarWorld> world_of_rays_;
+  std::shared_ptr<RayWorld> world_of_rays_;
   std::unique_ptr<LiveColours> colours_;
-  std::vector<std::unique_ptr<LiveSensor>> sensors_;
+  struct Carried {
+    std::unique_ptr<Sensor> sensor;
+    Carrier carrier;
+    bool taken = false;  // whether it gave a sample
+  };
+  std::vector<Carried> sensors_;
   std::vector<Sample> measured_;  // for observe()
 };
 

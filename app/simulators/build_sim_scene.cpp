@@ -39,7 +39,7 @@ class SceneBuilder {
       : mission_(mission), assets_(mission.assets), pile_(pile), dynamic_(dynamic) {
     model_.pile = build_pile_model(assets_, pile);
     add_look_pictures(model_.pile, threads);
-    model_.pile.gravity = mission.pile_scenario.settle.gravity;
+    model_.pile.gravity = mission.scenario.settle.gravity;
   }
 
   BuiltScene build(const std::vector<MissionRobot>& robots) {
@@ -264,14 +264,14 @@ class SceneBuilder {
 
   // Fines have no contacts: they are seen, and go with the piece that they lie on.
   void add_fines_and_surroundings() {
-    const std::vector<int> hosts = find_heap_hosts(pile_);
+    const std::vector<FineHeap>& heaps = pile_.fines.heaps();
     for (const PileModel::Piece& piece : model_.pile.pieces) {
       if (piece.number < kFirstFineHeap) continue;
       SimPart part;
       part.mesh = mesh_of(piece.type), part.scale = piece.scale;
       if (piece.number < kFirstSurrounding) {
         ++heaps_;
-        const auto at = places_.find(hosts[std::size_t(piece.number - kFirstFineHeap)]);
+        const auto at = places_.find(heaps[std::size_t(piece.number - kFirstFineHeap)].host);
         if (at != places_.end()) {
           SimModel& carrier = model_.sim.models[std::size_t(at->second.first)];
           SimLink& link = carrier.links[std::size_t(at->second.second)];

@@ -106,7 +106,7 @@ void add_robots(const Scenario& scenario, const std::vector<MissionRobot>& robot
 
 void add_cameras(const Scenario& scenario, const std::vector<MissionRobot>& robots, SimScene& scene, std::vector<std::string>& notes) {
   const std::vector<std::string> names = robot_names(scenario.robots);
-  for (const MountedCamera& mounted : all_cameras(scenario)) {
+  for (const MountedCamera& mounted : scenario.cameras) {
     SimCamera camera;
     camera.name = mounted.name;
     const Intrinsics k = mounted.camera.intrinsics();

@@ -8,7 +8,7 @@ namespace rubble {
 
 bool is_dark(const Scenario& scenario) {
   const LightSpec light = resolve_light(scenario);
-  const SkyType sky = scenario.light.sky.type;
+  const SkyType sky = scenario.lights.front().sky.type;
   if (light.type != LightType::sun) return light.type != LightType::directional;
   return sky == SkyType::moonlit || sky == SkyType::city_night || light.elevation_deg < 0;
 }

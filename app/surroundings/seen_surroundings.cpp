@@ -3,8 +3,6 @@
 #include <memory>
 #include <string>
 
-#include "render/scene/frame.h"
-
 namespace rubble {
 
 namespace {
@@ -26,13 +24,7 @@ LightSpec lamp_at(const Vec3& place) {
 
 }  // namespace
 
-std::uint16_t surrounding_label(const Scenario& scenario, const AssetLibrary& assets, SurroundingKind kind) {
-  const std::size_t robots = scenario.robots.empty() ? 0 : 1;
-  const std::size_t fines = scenario.fines.amount > 0 ? std::size_t(kFineKinds) : 0;
-  return std::uint16_t(std::size_t(kFirstAssetLabel) + assets.types.size() + robots + fines + std::size_t(kind));
-}
-
-void add_surroundings(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile, Scene& scene) {
+void add_surroundings(const ClassLabels& labels, const PileState& pile, Scene& scene) {
   if (!pile.surroundings) return;
   const std::uint32_t first = std::uint32_t(scene.meshes.size());
   for (const auto& mesh : pile.surroundings->meshes) {
@@ -47,7 +39,7 @@ void add_surroundings(const Scenario& scenario, const AssetLibrary& assets, cons
     instance.scale = float(thing.scale);
     instance.world_from_body = thing.world_from_mesh;
     instance.id = number++;
-    instance.label = surrounding_label(scenario, assets, thing.kind);
+    instance.label = labels.of(thing.kind);
     instance.surrounds = true;
     scene.instances.push_back(instance);
   }
@@ -80,12 +72,12 @@ void add_surroundings(const PileState& pile, PileModel& model) {
   }
 }
 
-void add_surroundings(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile, Legend& legend) {
+void add_surroundings(const ClassLabels& labels, const PileState& pile, Legend& legend) {
   if (!pile.surroundings) return;
   legend.first_surrounding = std::uint32_t(kFirstSurrounding);
   for (const SurroundingThing& thing : pile.surroundings->things)
     legend.surroundings.push_back(
-        {surrounding_label(scenario, assets, thing.kind), surrounding_names()[std::size_t(thing.kind)]});
+        {labels.of(thing.kind), surrounding_names()[std::size_t(thing.kind)]});
 }
 
 }  // namespace rubble

@@ -1,26 +1,22 @@
 // Surroundings as what is drawn, labelled, lit and exported.
 #pragma once
 
-#include "app/assets/asset_library.h"
+#include "app/formats/class_labels.h"
 #include "io/mesh/pile_model.h"
 #include "io/recording/recording.h"
 #include "kernel/model/pile_state.h"
 #include "render/scene/scene.h"
-#include "scripting/scenario/scenario.h"
 
 namespace rubble {
 
-// The class of a kind in the stream `label`: after those of all types, robots and fines.
-std::uint16_t surrounding_label(const Scenario& scenario, const AssetLibrary& assets, SurroundingKind kind);
-
 // Puts the things at the end of the instances, each with the number kFirstSurrounding and its index.
-void add_surroundings(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile, Scene& scene);
+void add_surroundings(const ClassLabels& labels, const PileState& pile, Scene& scene);
 // The street lamps, where they are lit: as many of the nearest as there is room for among the lights, which throw
 // sharp shadows, the others as far lights. Call it when the scene has the lights of the mission.
 // reserved: lights that come later.
 void add_street_lamps(const PileState& pile, std::size_t reserved, Scene& scene);
 // Likewise at the end of types and pieces, which stay those of the pile.
 void add_surroundings(const PileState& pile, PileModel& model);
-void add_surroundings(const Scenario& scenario, const AssetLibrary& assets, const PileState& pile, Legend& legend);
+void add_surroundings(const ClassLabels& labels, const PileState& pile, Legend& legend);
 
 }  // namespace rubble

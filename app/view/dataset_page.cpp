@@ -137,12 +137,12 @@ struct CameraWay {
 std::vector<CameraWay> find_ways(const std::string& folder, const Scenario& scenario) {
   std::vector<CameraWay> ways;
   std::error_code failed;
-  for (const MountedCamera& camera : all_cameras(scenario)) {
+  for (const MountedCamera& camera : scenario.cameras) {
     CameraWay way;
-    way.name = scenario.cameras.empty() ? "" : camera.name;
+    way.name = camera.named ? camera.name : "";
     way.aspect = double(camera.camera.height) / camera.camera.width;
-    way.topic = camera.camera.topic.value_or("/" + camera.name);
-    const std::string file = (way.name.empty() ? folder : folder + "/" + kCamerasFolder + "/" + way.name) + "/groundtruth.txt";
+    way.topic = camera.topic();
+    const std::string file = camera.folder_in(folder) + "/groundtruth.txt";
     if (fs::is_regular_file(file, failed)) way.poses = load_trajectory(file);
     ways.push_back(std::move(way));
   }
@@ -263,7 +263,7 @@ std::string make_dataset_page(const FinishedRun& saved, const AssetLibrary& asse
     data["tracks"].push_back(std::move(track));
     has_frames = has_frames || !way.poses.empty();
   }
-  data["robots"] = describe_robots_of(saved.folder, scenario.start_ns);
+  data["robots"] = describe_robots_of(saved.folder);
   if (!data["robots"].empty()) not_shown += "<p>Pieces are where they rested before robots moved them.</p>\n";
   std::string json = data.dump(-1, ' ', true, Json::error_handler_t::replace);
   for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;) json.replace(at, 1, "\\u003c");

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/eval/scores/trajectory_file.h"
 #include "app/view/packed_mesh.h"
 #include "io/base/atomic_file.h"
 #include "io/mesh/mesh_file.h"
@@ -66,20 +67,22 @@ std::vector<float> list_poses(const Track& track, int id, const std::vector<doub
 
 }  // namespace
 
-Json describe_robots_of(const std::string& folder, std::int64_t start_ns) {
+Json describe_robots_of(const std::string& folder) {
   Json list = Json::array();
   const std::string robots = folder + "/robots";
   std::error_code failed;
   if (!fs::is_regular_file(robots + "/robots.json", failed)) return list;
   const Track track = load_track(robots + "/track.bin");
   const std::vector<double> times = choose_times(track);
-  std::vector<double> stamps;
-  for (const double time : times) stamps.push_back(double(start_ns) * 1e-9 + time);
   MeshImporter importer;
   try {
     const Json told = Json::parse(read_whole_file(robots + "/robots.json"));
     for (const Json& robot : told.at("robots")) {
       const std::string name = robot.at("name").get<std::string>();
+      // Its rows are samples of the track, from its time 0 on.
+      const std::vector<StampedPose> poses = load_trajectory(robots + "/" + name + ".txt");
+      std::vector<double> stamps;
+      for (const double time : times) stamps.push_back(poses.front().stamp + time);
       Json links = Json::array();
       for (const Json& link : robot.at("links")) {
         const PackedMesh mesh = load_link(robots, name + "_meshes", link.at("name").get<std::string>(), importer);

@@ -77,7 +77,7 @@ Work load_mission_work(const std::string& file, std::uint64_t seed,
   const AssetLibrary assets = load_assets(mission, {});
   Work work;
   work.settle = mission.scenario.settle;
-  work.pile = generate_pile(build_pile_spec(mission.scenario, assets));
+  work.pile = generate_pile(build_pile_spec(mission.scenario.pile, mission.scenario.seed, assets));
   return work;
 }
 
@@ -132,7 +132,7 @@ SavedPile load_saved_pile(const std::string& folder) {
   saved.work.name = folder;
   saved.work.seed = run.manifest.seed;
   saved.work.settle = scenario.settle;
-  saved.work.pile = generate_pile(build_pile_spec(scenario, assets));
+  saved.work.pile = generate_pile(build_pile_spec(scenario.pile, scenario.seed, assets));
   saved.state = load_pile_of(run);
   return saved;
 }

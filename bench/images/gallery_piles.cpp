@@ -16,14 +16,14 @@ const PileState& GalleryPiles::of(const GalleryPicture& picture, const Scenario&
   if (found != piles_.end()) return found->second;
   SettleOptions options = scenario.settle;
   options.threads = threads;
-  return piles_[key] = settle_pile(generate_pile(build_pile_spec(scenario, assets)), options);
+  return piles_[key] = settle_pile(generate_pile(build_pile_spec(scenario.pile, scenario.seed, assets)), options);
 }
 
 ViewRays view_of(const Scenario& scenario, int size) {
   const CameraPose pose = sample_trajectory(scenario.trajectory, scenario.start_ns).front();
-  Scenario sized = scenario;
-  sized.camera.width = sized.camera.height = size;
-  return {pose.stamp_ns, sized.camera.intrinsics(), pose.world_from_camera};
+  CameraScenario sized = scenario.cameras.front().camera;
+  sized.width = sized.height = size;
+  return {pose.stamp_ns, sized.intrinsics(), pose.world_from_camera};
 }
 
 }  // namespace rubble

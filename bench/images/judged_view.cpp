@@ -34,7 +34,7 @@ void check_shared(const Scenario& scenario, const LightSet& lights) {
   const AirSpec& air = scenario.air;
   if (air.fog_density > 0 || air.dust.period > 0 || air.rain_mm_h > 0 || air.snow_mm_h > 0)
     throw RunError("a judged view has clear air");
-  const Intrinsics lens = scenario.camera.intrinsics();
+  const Intrinsics lens = scenario.cameras.front().camera.intrinsics();
   if (lens.lens != LensModel::plumb_bob || lens.distortion != std::array<double, 5>{})
     throw RunError("a judged view has the lens of a pinhole");
   if (scenario.surroundings.on() || scenario.fines.amount > 0)

@@ -45,6 +45,18 @@ void FolderWriter::add(const std::string& name, std::function<std::string()> mak
   });
 }
 
+void FolderWriter::append(const std::string& name, std::function<std::string()> make, std::function<void(std::size_t)> written) {
+  tasks_.add([this, name, make = std::move(make), written = std::move(written)]() -> OrderedTasks::Commit {
+    const auto bytes = std::make_shared<const std::string>(make());
+    return [this, name, bytes, written] {
+      AppendedFile(part_ + "/" + name).append(*bytes);
+      if (written) written(bytes->size());
+    };
+  });
+}
+
+void FolderWriter::wait() { tasks_.finish(); }
+
 void FolderWriter::finish() {
   tasks_.finish();
   commit_folder(part_, path_);

@@ -26,6 +26,13 @@ class FolderWriter {
   void write(const std::string& name, std::string_view bytes);
   // `make` runs on another thread: what it needs, it must hold.
   void add(const std::string& name, std::function<std::string()> make);
+  // Appends to a file, in the order of the calls: what is too long for the memory. `written` is told the size on the
+  // caller's thread, at the latest in wait() or finish().
+  void append(const std::string& name, std::function<std::string()> make, std::function<void(std::size_t)> written);
+  void append(const std::string& name, std::string bytes) {
+    append(name, [bytes = std::move(bytes)] { return bytes; }, nullptr);
+  }
+  void wait();  // until all that was asked for is written
   void finish();
 
   const std::string& path() const { return path_; }

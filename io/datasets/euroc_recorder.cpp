@@ -2,21 +2,12 @@
 
 #include "io/base/folder_writer.h"
 #include "io/base/number_text.h"
+#include "io/datasets/pose_rows.h"
 #include "io/image/image_file.h"
 #include "io/recording/frame_order.h"
 
 namespace rubble {
 namespace {
-
-// Luma of ITU-R BT.601, in integers.
-GrayImage to_gray(const Intrinsics& k, const std::vector<std::uint8_t>& rgb) {
-  GrayImage image{k.width, k.height, std::vector<std::uint8_t>(rgb.size() / 3)};
-  for (std::size_t i = 0; i < image.values.size(); ++i) {
-    const unsigned sum = 299u * rgb[3 * i] + 587u * rgb[3 * i + 1] + 114u * rgb[3 * i + 2];
-    image.values[i] = static_cast<std::uint8_t>((sum + 500) / 1000);
-  }
-  return image;
-}
 
 std::string row(std::int64_t stamp_ns, const std::vector<double>& values) {
   std::string line = std::to_string(stamp_ns);
@@ -32,11 +23,8 @@ std::string list(const std::vector<double>& values) {
 
 // Where a sensor sits in the body, as 4x4 row by row.
 std::string mounting(const Pose& body_from_sensor) {
-  const Mat3 r = body_from_sensor.rotation.matrix();
-  const Vec3& t = body_from_sensor.translation;
-  std::vector<double> values;
-  for (int i = 0; i < 3; ++i)
-    for (const double v : {r.rows[i].x, r.rows[i].y, r.rows[i].z, t[i]}) values.push_back(v);
+  const auto rows = pose_rows(body_from_sensor);
+  std::vector<double> values(rows.begin(), rows.end());
   for (const double v : {0.0, 0.0, 0.0, 1.0}) values.push_back(v);
   return "T_BS:\n  cols: 4\n  rows: 4\n  data: " + list(values) + "\n";
 }
@@ -90,7 +78,10 @@ class EurocRecorder : public Recorder {
         cameras_(number_cameras(recording)),
         seen_(recording.cameras.size()),
         order_(path, channels_of(recording)),
-        folder_(path, folders(), threads) {}
+        folder_(path, folders(), threads),
+        imus_(recording.imus.size(),
+              "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
+              "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n") {}
 
   void write(const Frame& frame) override {
     order_.check(frame);
@@ -108,15 +99,15 @@ class EurocRecorder : public Recorder {
 
   void write_imu(const ImuSample& s) override {
     const Vec3 &w = s.angular_velocity, &a = s.linear_acceleration;
-    imu_ += row(s.stamp_ns, {w.x, w.y, w.z, a.x, a.y, a.z});
-    last_imu_ = s;
+    imus_.at(std::size_t(s.sensor)) += row(s.stamp_ns, {w.x, w.y, w.z, a.x, a.y, a.z});
+    if (s.sensor == 0) last_imu_ = s;
   }
 
   void finish() override {
     for (const EurocCamera& camera : cameras_) write_camera(camera);
-    if (has_imu()) {
-      folder_.write("mav0/imu0/data.csv", imu_);
-      folder_.write("mav0/imu0/sensor.yaml", imu_yaml(recording_.imus.front()));
+    for (std::size_t i = 0; i < imus_.size(); ++i) {
+      folder_.write(folder_of_imu(i) + "/data.csv", imus_[i]);
+      folder_.write(folder_of_imu(i) + "/sensor.yaml", imu_yaml(recording_.imus[i]));
     }
     folder_.write("mav0/state_groundtruth_estimate0/data.csv", states_);
     folder_.write("mav0/state_groundtruth_estimate0/sensor.yaml",
@@ -132,12 +123,12 @@ class EurocRecorder : public Recorder {
     std::string pictures = "#timestamp [ns],filename\n";
   };
 
-  bool has_imu() const { return !recording_.imus.empty(); }
+  static std::string folder_of_imu(std::size_t number) { return "mav0/imu" + std::to_string(number); }
 
   std::vector<std::string> folders() const {
     std::vector<std::string> names{"mav0/state_groundtruth_estimate0"};
     for (const EurocCamera& camera : cameras_) names.push_back("mav0/" + camera.name + "/data");
-    if (has_imu()) names.push_back("mav0/imu0");
+    for (std::size_t i = 0; i < recording_.imus.size(); ++i) names.push_back(folder_of_imu(i));
     return names;
   }
 
@@ -152,7 +143,9 @@ class EurocRecorder : public Recorder {
 
   void add_picture(const std::string& name, const Frame& frame,
                    const std::vector<std::uint8_t>& rgb) {
-    folder_.add(name, [k = frame.intrinsics, rgb] { return encode_png(to_gray(k, rgb)); });
+    folder_.add(name, [image = RgbImage{frame.intrinsics.width, frame.intrinsics.height, rgb}] {
+      return encode_png(to_gray(image));
+    });
   }
 
   // Of the rig, once for all frames of one instant.
@@ -183,11 +176,9 @@ class EurocRecorder : public Recorder {
   FrameOrder order_;
   FolderWriter folder_;
   std::int64_t last_state_ns_ = -1;
-  ImuSample last_imu_;
+  ImuSample last_imu_;  // of the first unit
   // The tables, so far.
-  std::string imu_ =
-      "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
-      "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n";
+  std::vector<std::string> imus_;  // by unit
   std::string states_ =
       "#timestamp,p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z [],"
       "v_RS_R_x [m s^-1],v_RS_R_y [m s^-1],v_RS_R_z [m s^-1],b_w_RS_S_x [rad s^-1],"

@@ -4,7 +4,7 @@
 //   mav0/cam0/data/STAMP.png, data.csv, sensor.yaml    grey, 8 bit
 //   mav0/cam1/...                                      the right camera, where there is one, and the
 //                                                      further cameras, each followed by its right one
-//   mav0/imu0/data.csv, sensor.yaml                    where the recording has an inertial unit
+//   mav0/imu0/data.csv, sensor.yaml                    where the recording has an inertial unit; imu1 of a second one
 //   mav0/state_groundtruth_estimate0/data.csv, sensor.yaml
 // Stamps are nanoseconds. The body S is the rig that flies the trajectory (X forward, Y left, Z up): the
 // body of the only camera. T_BS of a camera is its optical frame in the body. The reference R is the

@@ -1,5 +1,6 @@
 #include "io/datasets/frames_recorder.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "io/base/folder_writer.h"
@@ -8,6 +9,7 @@
 #include "io/image/flow_file.h"
 #include "io/image/image_file.h"
 #include "io/recording/frame_order.h"
+#include "io/recording/one_camera.h"
 #include "render/streams/image_streams.h"
 
 namespace rubble {
@@ -70,6 +72,7 @@ class FramesRecorder : public Recorder {
   }
 
   void write_imu(const ImuSample& s) override {
+    if (s.sensor != std::max(0, find_imu_beside(recording_, 0))) return;
     imu_ += std::to_string(s.stamp_ns) + vector_columns(s.angular_velocity) +
             vector_columns(s.linear_acceleration) + vector_columns(s.angular_bias) +
             vector_columns(s.acceleration_bias) + "\n";

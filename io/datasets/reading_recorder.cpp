@@ -13,19 +13,21 @@ class ReadingRecorder : public Recorder {
       std::string head = "#stamp [ns]";
       for (const ReadingColumn& column : sensor.format->columns())
         head += "," + column.name + (column.unit.empty() ? "" : " [" + column.unit + "]");
-      tables_.push_back(head + "\n");
+      tables_.push_back(sensor.scans() ? "" : head + "\n");
     }
   }
 
   void write(const Frame&) override {}
   void write_reading(const Reading& reading) override {
+    if (reading.scan) return;
     std::string& table = tables_.at(std::size_t(reading.sensor));
     table += std::to_string(reading.stamp_ns);
     for (const double value : reading.values) table += "," + exact_text(value);
     table += "\n";
   }
   void finish() override {
-    for (std::size_t i = 0; i < tables_.size(); ++i) folder_.write(recording_.sensors[i].name + ".csv", tables_[i]);
+    for (std::size_t i = 0; i < tables_.size(); ++i)
+      if (!tables_[i].empty()) folder_.write(recording_.sensors[i].name + ".csv", tables_[i]);
     folder_.finish();
   }
 

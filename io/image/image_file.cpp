@@ -161,6 +161,15 @@ DepthImage decode_depth(const std::string& path) {
 
 }  // namespace
 
+GrayImage to_gray(const RgbImage& colour) {
+  GrayImage image{colour.width, colour.height, std::vector<std::uint8_t>(colour.rgb.size() / 3)};
+  for (std::size_t i = 0; i < image.values.size(); ++i) {
+    const unsigned sum = 299u * colour.rgb[3 * i] + 587u * colour.rgb[3 * i + 1] + 114u * colour.rgb[3 * i + 2];
+    image.values[i] = static_cast<std::uint8_t>((sum + 500) / 1000);
+  }
+  return image;
+}
+
 std::string encode_png(const RgbImage& image, int level) {
   const auto row = 3 * static_cast<std::size_t>(image.width);
   return encode({image.width, image.height, PNG_COLOR_TYPE_RGB, 8, row}, image.rgb.data(), level);

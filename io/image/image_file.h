@@ -21,6 +21,9 @@ struct DepthImage {
   std::vector<std::uint16_t> values;  // in the unit of whoever encoded them; 0: no return
 };
 
+// Luma of ITU-R BT.601, in integers.
+GrayImage to_gray(const RgbImage& image);
+
 // The bytes of a PNG file. level: 0 (stored) to 9 (smallest); lossless. Throws RunError.
 std::string encode_png(const RgbImage& image, int level = 1);
 std::string encode_png(const GrayImage& image, int level = 1);

@@ -60,14 +60,14 @@ struct ScanPlan::View {
   }
 };
 
-void ScanPlan::add(const LidarScan& scan) {
+void ScanPlan::add(const RangeScan& scan) {
   last_echoes_.clear();
-  way_.push_back(scan.world_from_lidar.front().translation);
-  for (const LidarPoint& point : scan.points) {
+  way_.push_back(scan.world_from_sensor.front().translation);
+  for (const ScanPoint& point : scan.points) {
     const Vec3 local{double(point.x), double(point.y), double(point.z)};
     if (dot(local, local) > kFarthest * kFarthest) continue;
-    const auto step = std::size_t(double(point.time) * 1e9 / double(LidarScan::kMotionStep));
-    const Vec3 echo = scan.world_from_lidar[std::min(step, scan.world_from_lidar.size() - 1)] * local;
+    const auto step = std::size_t(double(point.time) * 1e9 / double(RangeScan::kMotionStep));
+    const Vec3 echo = scan.world_from_sensor[std::min(step, scan.world_from_sensor.size() - 1)] * local;
     last_echoes_.push_back(echo);
     cells_.emplace(cell_of(echo), way_.size());
   }

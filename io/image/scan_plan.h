@@ -1,4 +1,4 @@
-// What a LiDAR has measured, seen from above: a tile of a contact sheet.
+// What a sensor that scans has measured, seen from above: a tile of a contact sheet.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -6,11 +6,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include "render/scene/lidar_scan.h"
+#include "render/scene/range_scan.h"
 
 namespace rubble {
 
-// Takes the scans of one LiDAR in their order, remembers moments, and draws these when all scans have come: all plans of a
+// Takes the scans of one sensor in their order, remembers moments, and draws these when all scans have come: all plans of a
 // flight then show the same part of the world in the same colours.
 class ScanPlan {
  public:
@@ -20,7 +20,7 @@ class ScanPlan {
     std::size_t scans = 0;     // until then, with that one
   };
 
-  void add(const LidarScan& scan);
+  void add(const RangeScan& scan);
   Moment now() const { return {last_echoes_, way_.size()}; }
 
   // To be called before draw(), with all moments that will be drawn.

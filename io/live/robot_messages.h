@@ -28,7 +28,7 @@ struct HeardPoint {
   float time = 0;  // since the stamp; 0 where the cloud does not say; unit: s
 };
 
-// Of a LiDAR or a 2-D scanner.
+// Of a scanner in three dimensions or in two.
 struct HeardCloud {
   std::int64_t stamp_ns = 0;
   std::string frame;

@@ -39,8 +39,7 @@ class GlbBuilder {
       mesh_of_type_.push_back(used[i] ? count++ : -1);
       if (!used[i]) continue;
       Json mesh{{"name", type.name}, {"primitives", Json::array()}};
-      const int positions = add_vectors(type.mesh->positions, true);
-      const int normals = type.mesh->normals.empty() ? -1 : add_vectors(type.mesh->normals, false);
+      int positions = -1, normals = -1;  // of surfaces without a paint, which share them
       const std::size_t surfaces = std::max<std::size_t>(1, type.mesh->surface_names.size());
       for (std::size_t s = 0; s < surfaces; ++s) {
         if (type.mesh->paint_of(s)) {
@@ -49,6 +48,10 @@ class GlbBuilder {
         }
         const int indices = add_indices(*type.mesh, s);
         if (indices < 0) continue;
+        if (positions < 0) {
+          positions = add_vectors(type.mesh->positions, true);
+          if (!type.mesh->normals.empty()) normals = add_vectors(type.mesh->normals, false);
+        }
         Json primitive{{"attributes", {{"POSITION", positions}}}, {"indices", indices}};
         if (normals >= 0) primitive["attributes"]["NORMAL"] = normals;
         if (s < type.mesh->surface_names.size())

@@ -2,7 +2,7 @@
 // but for glTF, which wants Y up: (x, y, z) becomes (x, z, -y).
 //
 //   ply   binary; distinct positions, each with its piece's number and a colour
-//   obj   and .mtl beside it; one object per piece, distinct positions, normals, materials
+//   obj   and .mtl beside it; one object per piece, distinct positions without normals, materials
 //   glb   glTF 2.0; one mesh per asset, one node per piece with its pose and scale, materials
 #pragma once
 

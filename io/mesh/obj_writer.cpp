@@ -74,10 +74,10 @@ std::string make_mtl(const PileModel& model) {
 
 // Faces of one surface together: a `usemtl` for each change would make thousands of groups.
 void put_obj_object(std::string& text, const PileModel::Piece& piece, const TriangleMesh& mesh,
-                    const WeldedMesh& welded, ObjCounts& counts, bool places) {
+                    const WeldedMesh& welded, ObjContent content, ObjCounts& counts) {
   text += "o " + one_line(piece.name) + "\n";
   for (const Vec3f& p : welded.positions) put_vector(text, "v", world_position(piece, p));
-  const bool with_normals = !welded.normals.empty() && !is_flat(mesh);
+  const bool looks = content == ObjContent::looks, with_normals = looks && !welded.normals.empty() && !is_flat(mesh);
   if (with_normals)
     for (const Vec3f& n : mesh.normals)
       put_vector(text, "vn", Vec3f(piece.world_from_body.rotation.rotate(Vec3(n))));
@@ -85,7 +85,7 @@ void put_obj_object(std::string& text, const PileModel::Piece& piece, const Tria
   for (std::size_t s = 0; s < surfaces; ++s) {
     if (s < mesh.surface_names.size()) text += "usemtl " + one_line(mesh.surface_names[s]) + "\n";
     const SurfacePaint* const paint = mesh.paint_of(s);
-    const bool placed = places && paint && paint->albedo.side > 0;
+    const bool placed = looks && paint && paint->albedo.side > 0;
     for (std::size_t i = 0; i < welded.triangles.size(); ++i) {
       if (welded.surfaces[i] != s) continue;
       if (placed) {
@@ -119,7 +119,7 @@ void write_obj(const std::string& path, const PileModel& model) {
   std::string text;
   for (const PileModel::Piece& piece : model.pieces) {
     text.clear();
-    put_obj_object(text, piece, *model.types[piece.type].mesh, welded[piece.type], counts);
+    put_obj_object(text, piece, *model.types[piece.type].mesh, welded[piece.type], ObjContent::solid, counts);
     file.write(text);
   }
   materials.commit();

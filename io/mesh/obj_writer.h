@@ -12,10 +12,13 @@ struct ObjCounts {
   std::size_t positions = 0, normals = 0, places = 0;
 };
 
-// Appends one object and adds it to the counts. Positions that are equal are one, and normals that are those of the faces
-// are left out, so that readers find a closed mesh. places: with places in pictures, of surfaces that have a picture.
+// solid: positions and faces. Readers split a corner whose faces have several normals or places in pictures, and then find
+// no closed mesh. looks: with normals where they are not those of the faces, and with places of surfaces with a picture.
+enum class ObjContent { solid, looks };
+
+// Appends one object and adds it to the counts. Positions that are equal are one.
 void put_obj_object(std::string& text, const PileModel::Piece& piece, const TriangleMesh& mesh,
-                    const WeldedMesh& welded, ObjCounts& counts, bool places = false);
+                    const WeldedMesh& welded, ObjContent content, ObjCounts& counts);
 
 // A material. picture: name of its file; empty: none. colour: linear light.
 std::string mtl_text(const std::string& name, const Vec3f& colour, const std::string& picture = "");

@@ -12,7 +12,6 @@
 #include "io/base/gzip.h"
 #include "io/image/depth_encoding.h"
 #include "io/mrpt/action_frames.h"
-#include "io/mrpt/lidar_observations.h"
 #include "io/mrpt/mrpt_types.h"
 #include "io/mrpt/reading_observations.h"
 #include "io/recording/frame_order.h"
@@ -62,13 +61,6 @@ class RawlogRecorder : public Recorder {
       emit(sample.stamp_ns, make_truth(sample.stamp_ns, name + "_ground_truth", sample.world_from_base));
     });
     write_frames(false);
-  }
-
-  void write_lidar(const LidarScan& scan) override {
-    const LidarRecord& lidar = recording_.lidars.at(std::size_t(scan.sensor));
-    guard([&] {
-      write_lidar_observation(scan, lidar, [&](const auto& observation) { emit(scan.stamp_ns, observation); });
-    });
   }
 
   void write_reading(const Reading& reading) override {

@@ -5,7 +5,7 @@
 // with planar depth and colour (sensor frame: X forward, Y left, Z up), which stands at the robot's
 // origin. Where the recording has them: before these CObservationIMU `imu`; after them a scan
 // `ground_truth_depth` (the exact depth, when `camera` has that of a sensor) and a
-// CObservationImage `camera_right`. Of LiDARs, by their names: CObservationRotatingScan, of a
+// CObservationImage `camera_right`. Of sensors that scan, by their names: CObservationRotatingScan, of a
 // non-repeating one CObservationPointCloud, of a 2-D scanner CObservation2DRangeScan. Several cameras:
 // labels NAME, NAME_ground_truth_depth and NAME_right, each where it is mounted, and one pose an instant.
 // Robots: CObservationOdometry NAME_odometry and CObservationRobotPose NAME_ground_truth, both of the

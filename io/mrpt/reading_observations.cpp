@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "io/mrpt/mrpt_types.h"
+#include "io/mrpt/range_scan_observations.h"
 
 namespace rubble {
 namespace {
@@ -21,6 +22,8 @@ class ObservationWriter {
       : reading_(reading), sensor_(sensor), write_(write) {}
 
   void operator()(std::monostate) const {}
+
+  void operator()(const ScanObservation& from) const { write_range_scan(*from.scan, sensor_, write_); }
 
   void operator()(const RangeObservation& from) const {
     mrpt::obs::CObservationRange out;

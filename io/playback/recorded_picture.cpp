@@ -1,8 +1,10 @@
 #include "io/playback/recorded_picture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <sstream>
 
 #include "io/base/number_text.h"
@@ -65,8 +67,9 @@ Found read_truth(const std::string& folder, const ImageStream& stream, const std
   return picture;
 }
 
-// The plain folder, which has every channel bit for bit.
-Found from_frames(const std::string& folder, Wanted wanted) {
+}  // namespace
+
+std::optional<RecordedPicture> read_frames_picture(const std::string& folder, const PictureWanted& wanted) {
   const std::string& c = wanted.channel;
   const auto name = [&](const std::string& in, const char* suffix) {
     return "frames/" + in + "/" + index_text(wanted.frame) + suffix;
@@ -78,6 +81,8 @@ Found from_frames(const std::string& folder, Wanted wanted) {
   const bool truth_aside = c == "depth" && wanted.measured_depth;
   return read_exr_picture(folder, name(truth_aside ? "depth_true" : "depth", ".exr"), {"Y"});
 }
+
+namespace {
 
 // The file of a row of a TUM list, such as rgb.txt; empty: it has not so many.
 std::string name_in_list(const std::string& list, int row) {
@@ -99,10 +104,18 @@ Found from_tum(const std::string& folder, Wanted wanted) {
 }
 
 Found from_colmap(const std::string& folder, Wanted wanted) {
-  const std::string name = index_text(wanted.frame) + ".png";
-  if (wanted.channel == "rgb") return read_colour(folder, "colmap/images/" + name);
-  if (wanted.channel == "rgb_right") return read_colour(folder, "colmap/images/right/" + name);
-  return std::nullopt;
+  if (wanted.channel != "rgb" && wanted.channel != "rgb_right") return std::nullopt;
+  const std::string images = "colmap/images/" + (wanted.camera.empty() ? "" : wanted.camera + "/");
+  std::error_code failed;
+  const bool stereo = fs::is_directory(folder + "/" + images + "left", failed);
+  if (!stereo && wanted.channel == "rgb_right") return std::nullopt;
+  const std::string eye = images + (!stereo ? "" : wanted.channel == "rgb" ? "left/" : "right/");
+  std::vector<std::string> names;  // of several cameras by instants
+  for (const auto& entry : fs::directory_iterator(folder + "/" + eye, failed))
+    if (entry.path().extension() == ".png") names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  if (std::size_t(wanted.frame) >= names.size()) return std::nullopt;
+  return read_colour(folder, eye + names[std::size_t(wanted.frame)]);
 }
 
 Found from_bag(const std::string& folder, Wanted wanted) {
@@ -148,12 +161,12 @@ std::optional<RecordedPicture> find_recorded_picture(const std::string& folder,
                                                      const PictureWanted& wanted,
                                                      const std::set<std::string>& left_out) {
   using Reader = Found (*)(const std::string&, Wanted);
-  std::vector<Reader> readers{from_frames, from_bag, from_mcap, from_rawlog, from_tum, from_colmap};
+  std::vector<Reader> readers{read_frames_picture, from_bag, from_mcap, from_rawlog, from_tum, from_colmap};
   Found rounded;
   if (!wanted.camera.empty()) {
     rounded = find_in_folder_of_camera(folder, wanted, left_out);
     if (rounded && rounded->step == 0) return rounded;
-    readers = {from_bag, from_mcap, from_rawlog};  // those that hold all cameras
+    readers = {from_bag, from_mcap, from_rawlog, from_colmap};  // those that hold all cameras
   }
   for (const Reader read : readers) {
     try {
@@ -165,6 +178,31 @@ std::optional<RecordedPicture> find_recorded_picture(const std::string& folder,
     }
   }
   return rounded;
+}
+
+void put_picture(const RecordedPicture& picture, const std::string& channel, Frame& frame) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (channel == "rgb" || channel == "rgb_right") {
+    std::vector<std::uint8_t>& rgb = channel == "rgb" ? frame.rgb : frame.rgb_right;
+    rgb.assign(picture.values.begin(), picture.values.end());
+    return;
+  }
+  if (channel == "depth" || channel == "measured_depth") {
+    std::vector<float>& depth = channel == "depth" ? frame.depth : frame.measured_depth;
+    for (const double value : picture.values) depth.push_back(float(picture.step > 0 && value == 0 ? kNone : value));
+    return;
+  }
+  const ImageStream& stream = *find_image_stream(channel);
+  ImageValues values = stream.blank(std::size_t(picture.width) * std::size_t(picture.height));
+  std::visit(
+      [&](auto& typed) {
+        for (std::size_t i = 0; i < typed.size() && i < picture.values.size(); ++i) {
+          const bool unknown = stream.file == ImageFile::flo && picture.values[i] >= double(kUnknownFlow);
+          typed[i] = static_cast<typename std::decay_t<decltype(typed)>::value_type>(unknown ? kNone : picture.values[i]);
+        }
+      },
+      values);
+  frame.truth[channel] = std::move(values);
 }
 
 std::string describe_difference(const RecordedPicture& was, const RecordedPicture& is) {

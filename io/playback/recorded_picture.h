@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "render/scene/frame.h"
+
 namespace rubble {
 
 struct PictureWanted {
@@ -32,6 +34,13 @@ struct RecordedPicture {
 std::optional<RecordedPicture> find_recorded_picture(const std::string& folder,
                                                      const PictureWanted& wanted,
                                                      const std::set<std::string>& left_out = {});
+
+// Out of the folder `frames`, which has every channel bit for bit. Throws InputError: there is none, or it is damaged.
+std::optional<RecordedPicture> read_frames_picture(const std::string& folder, const PictureWanted& wanted);
+
+// Makes it the channel of a frame that it was: colour, depth or a stream of ground truth. The mark of an unknown flow
+// becomes NaN, and depth of 0, where integers hold it, as well.
+void put_picture(const RecordedPicture& picture, const std::string& channel, Frame& frame);
 
 // "pixel (12, 7) is the first that differs: 12 34 56 instead of 12 34 57, and so do 3 more"; empty:
 // they are the same, NaN included. Pixels are numbered from 0, columns first.

@@ -1,52 +1,9 @@
 #include "io/playback/ros_pictures.h"
 
-#include <algorithm>
-
-#include "io/ros/ros_message_reader.h"
+#include "io/playback/wire_reader.h"
 
 namespace rubble {
 namespace {
-
-// Takes a message's fields off its front, by the rules of ros_wire.h.
-class WireReader {
- public:
-  explicit WireReader(const RosMessage& message)
-      : cdr_(message.version == ros::Version::ros2),
-        bytes_(message.bytes.substr(cdr_ ? std::min<std::size_t>(4, message.bytes.size()) : 0)) {}
-
-  template <typename T>
-  T number() {
-    if (cdr_) skip((sizeof(T) - at_ % sizeof(T)) % sizeof(T));
-    T value{};
-    std::string_view left = bytes_.substr(at_);
-    sound_ = sound_ && take(left, value);
-    skip(sizeof value);
-    return value;
-  }
-  std::string_view block() {
-    const auto size = number<std::uint32_t>();
-    const std::string_view found = bytes_.substr(at_, size);
-    skip(size);
-    return found;
-  }
-  std::string text() {
-    std::string found(block());
-    if (cdr_ && !found.empty()) found.pop_back();  // its NUL
-    return found;
-  }
-  bool sound() const { return sound_; }
-
- private:
-  void skip(std::size_t count) {
-    sound_ = sound_ && count <= bytes_.size() - at_;
-    at_ = sound_ ? at_ + count : bytes_.size();
-  }
-
-  bool cdr_;
-  std::string_view bytes_;
-  std::size_t at_ = 0;
-  bool sound_ = true;
-};
 
 template <typename T>
 std::vector<double> unpack(std::string_view data) {
@@ -69,11 +26,11 @@ const Encoding kEncodings[] = {
     {"32FC3", 3, unpack<float>},         {"32SC1", 1, unpack<std::uint32_t>},
     {"32SC2", 2, unpack<std::uint32_t>}, {"32SC3", 3, unpack<std::uint32_t>}};
 
-std::optional<RecordedPicture> parse_image(const RosMessage& message, bool is_depth) {
+}  // namespace
+
+std::optional<RecordedPicture> read_ros_image(const RosMessage& message, bool is_depth) {
   WireReader wire(message);
-  if (message.version == ros::Version::ros1) wire.number<std::uint32_t>();  // sequence
-  wire.number<std::uint32_t>(), wire.number<std::uint32_t>();               // stamp
-  wire.text();                                                              // frame
+  wire.header();
   RecordedPicture picture;
   const auto height = wire.number<std::uint32_t>(), width = wire.number<std::uint32_t>();
   picture.height = static_cast<int>(height);
@@ -99,6 +56,8 @@ std::optional<RecordedPicture> parse_image(const RosMessage& message, bool is_de
   return std::nullopt;
 }
 
+namespace {
+
 // Where a channel is, in the order of trust.
 std::vector<std::string> topics_of(const PictureWanted& wanted) {
   const std::string& c = wanted.channel;
@@ -123,7 +82,7 @@ std::optional<RecordedPicture> find_ros_picture(const std::string& folder, const
   int left = wanted.frame;
   const auto look = [&](const RosMessage& message) {
     for (const std::string& topic : topics)
-      if (message.topic == topic && left-- == 0) picture = parse_image(message, is_depth);
+      if (message.topic == topic && left-- == 0) picture = read_ros_image(message, is_depth);
     return left >= 0;
   };
   const std::string path = folder + "/" + name;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/playback/recorded_picture.h"
+#include "io/ros/ros_message_reader.h"
 
 namespace rubble {
 
@@ -9,5 +10,9 @@ namespace rubble {
 // such topic, or not so many frames before the first fault. Throws InputError: no such file.
 std::optional<RecordedPicture> find_ros_picture(const std::string& folder, const std::string& name,
                                                 const PictureWanted& wanted);
+
+// A sensor_msgs/Image of an encoding that Rubble writes. is_depth: whether 16UC1 is millimetres. Nothing: it is damaged or
+// of another encoding.
+std::optional<RecordedPicture> read_ros_image(const RosMessage& message, bool is_depth);
 
 }  // namespace rubble

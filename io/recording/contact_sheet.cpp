@@ -24,7 +24,7 @@ struct Tile {
   std::int64_t stamp_ns = 0;
   cv::Mat colour;            // CV_8UC3, B G R
   std::vector<float> depth;  // as large; unit: m; NaN: no return
-  ScanPlan::Moment scans;    // of the LiDAR, if there is one
+  ScanPlan::Moment scans;    // of the sensor that scans, if there is one
 };
 
 // The mean over the source pixels under each pixel of the tile, in integers.
@@ -107,11 +107,11 @@ class ContactSheetRecorder : public Recorder {
         std::max(1, options_.tile * frame.intrinsics.height / frame.intrinsics.width);
     tiles_.push_back({frame.index, frame.stamp_ns, shrink_colour(frame, options_.tile, height),
                       sample_depth(frame, options_.tile, height), {}});
-    if (has_lidar()) tiles_.back().scans = plan_.now();
+    if (has_scans()) tiles_.back().scans = plan_.now();
   }
 
-  void write_lidar(const LidarScan& scan) override {
-    if (has_lidar() && scan.sensor == 0) plan_.add(scan);
+  void write_reading(const Reading& reading) override {
+    if (has_scans() && reading.sensor == options_.scanner_number && reading.scan) plan_.add(*reading.scan);
   }
 
   void finish() override {
@@ -129,7 +129,7 @@ class ContactSheetRecorder : public Recorder {
   }
 
  private:
-  bool has_lidar() const { return !options_.lidar.empty(); }
+  bool has_scans() const { return !options_.scanner.empty(); }
 
   // From the 1st to the 99th percentile of what is shown, and at least from 1 to 1.5.
   DepthScale calc_scale() const {
@@ -165,7 +165,7 @@ class ContactSheetRecorder : public Recorder {
     const int columns = std::max(1, std::min<int>(options_.columns, int(tiles_.size())));
     const int rows = (int(tiles_.size()) + columns - 1) / columns;
     const int tile_height = tiles_.empty() ? 0 : tiles_.front().colour.rows;
-    const int pictures = has_lidar() ? 3 : 2;
+    const int pictures = has_scans() ? 3 : 2;
     const int pair_width = pictures * options_.tile + (pictures - 1) * kGap, pair_height = tile_height + kCaption;
     cv::Mat sheet(kTitle + rows * (pair_height + kMargin) + kLegend,
                   kMargin + columns * (pair_width + kMargin), CV_8UC3, kPaper);
@@ -188,10 +188,10 @@ class ContactSheetRecorder : public Recorder {
     const int baseline = at.y + size.height + 18;
     put_label(sheet, "frame " + std::to_string(tile.index), {at.x, baseline}, 0.45, kInk);
     put_label(sheet, "t = " + decimal(seconds, 2) + " s", {at.x + 100, baseline}, 0.45, kFaint);
-    if (!has_lidar()) return;
+    if (!has_scans()) return;
     const int left = at.x + 2 * (size.width + kGap);
     plan_.draw(tile.scans, size).copyTo(sheet(cv::Rect({left, at.y}, size)));
-    put_label(sheet, options_.lidar + " from above, " + plan_.bar(size), {left, baseline}, 0.45, kInk);
+    put_label(sheet, options_.scanner + " from above, " + plan_.bar(size), {left, baseline}, 0.45, kInk);
     put_label(sheet, "z " + plan_.heights(), {left + size.width - 120, baseline}, 0.45, kFaint);
   }
 

@@ -1,4 +1,4 @@
-// preview.png: some frames of a recording at a glance, colour beside depth, and what a LiDAR has measured until then.
+// preview.png: some frames of a recording at a glance, colour beside depth, and what a sensor that scans has measured until then.
 #pragma once
 
 #include <memory>
@@ -16,10 +16,11 @@ struct ContactSheetOptions {
   int columns = 3;       // pairs a row; range: 1 to 10
   int tile = 320;        // width of one picture; unit: pixel; range: 64 to 2048
   std::string title;     // printed at the top; ASCII
-  std::string lidar;     // name of the recording's first LiDAR, whose scans are shown; empty: none
+  std::string scanner;   // name of the sensor whose scans are shown; empty: none
+  int scanner_number = 0;  // Reading::sensor of its scans
 };
 
-// The LiDAR's picture looks from above: the last scan before the frame, its echoes placed by the true motion and coloured
+// The picture of scans looks from above: the last scan before the frame, its echoes placed by the true motion and coloured
 // by height above the sensor; all scans before it in grey; the way of the sensor as a line. X is to the right.
 //
 // The first and the last frame are always among the shown. All depth pictures share one logarithmic

@@ -21,7 +21,6 @@ class OneCamera : public Recorder {
     recorder_->write_imu(alone);
   }
   void write_robot(const RobotSample& sample) override { recorder_->write_robot(sample); }
-  void write_lidar(const LidarScan& scan) override { recorder_->write_lidar(scan); }
   void write_reading(const Reading& reading) override { recorder_->write_reading(reading); }
   void finish() override { recorder_->finish(); }
 

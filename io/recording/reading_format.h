@@ -1,6 +1,7 @@
 // How the readings of a sensor are written: as columns, as ROS messages, as observations of MRPT.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -33,8 +34,12 @@ struct SatelliteObservation {  // CObservationGPS, message GGA
   int satellites = 0;
   bool fix = false;
 };
+struct ScanObservation {  // CObservationRotatingScan, CObservationPointCloud or CObservation2DRangeScan, as its rays lie
+  std::shared_ptr<const RangeScan> scan;
+};
 // monostate: MRPT has none.
-using RawlogObservation = std::variant<std::monostate, RangeObservation, InertialObservation, SatelliteObservation>;
+using RawlogObservation =
+    std::variant<std::monostate, RangeObservation, InertialObservation, SatelliteObservation, ScanObservation>;
 
 struct ReadingColumn {
   std::string name, unit;  // unit: empty: none
@@ -44,8 +49,11 @@ class ReadingFormat {
  public:
   virtual ~ReadingFormat() = default;
 
-  // Meanings of Reading::values, in their order.
+  // Meanings of Reading::values, in their order; empty: its readings are scans.
   virtual std::vector<ReadingColumn> columns() const = 0;
+  virtual double most_points() const { return 0; }  // of a scan, with all its echoes; 0: it does not scan
+  virtual std::shared_ptr<const LidarSpec> scan_spec() const { return nullptr; }  // of its scans, where their rays go; null: no scans
+  virtual std::string sample_name() const { return "reading"; }  // of what it gives: to Python
 
   // A reading is a message on each of these, below the sensor's own topic.
   struct Topic {

@@ -16,7 +16,6 @@ class Recorder {
   // Formats without a place for these samples leave them out.
   virtual void write_imu(const ImuSample&) {}
   virtual void write_robot(const RobotSample&) {}
-  virtual void write_lidar(const LidarScan&) {}
   virtual void write_reading(const Reading&) {}
   // Completes the files and gives them their final names.
   virtual void finish() = 0;
@@ -27,8 +26,6 @@ inline void write_sample(Recorder& recorder, const Sample& sample) {
     recorder.write(*frame);
   else if (const auto* reading = std::get_if<ImuSample>(&sample))
     recorder.write_imu(*reading);
-  else if (const auto* scan = std::get_if<LidarScan>(&sample))
-    recorder.write_lidar(*scan);
   else if (const auto* values = std::get_if<Reading>(&sample))
     recorder.write_reading(*values);
   else

@@ -12,7 +12,6 @@
 #include "io/recording/reading_format.h"
 #include "render/scene/camera_spec.h"
 #include "render/scene/frame.h"
-#include "render/scene/lidar_spec.h"
 
 namespace rubble {
 
@@ -34,6 +33,7 @@ struct Legend {
   struct Piece {
     std::uint16_t label = 0;  // class, as in the stream `label`
     std::string asset;        // name of its type
+    bool victim = false;      // whether it is a person
   };
   std::vector<std::string> labels;  // by label: "sky", "ground", then the assets
   std::vector<Piece> pieces;        // by piece number
@@ -81,24 +81,16 @@ struct ImuRecord {
   ImuModel model;                         // rate and noise
 };
 
-// A LiDAR. LidarScan::sensor is its number.
-struct LidarRecord {
-  std::string name = "lidar";      // of labels and folders
-  std::string topic = "/points";   // ROS: PointCloud2, of a planar pattern LaserScan
-  std::string frame_id = "lidar_link";  // TF
-  std::string carrier;             // TF: the link that carries it; empty: the rig
-  Pose rig_from_lidar;             // or in the link; axes: X forward, Y left, Z up
-  LidarSpec spec;                  // pattern and limits
-};
-
-// A sensor that gives a few numbers. Reading::sensor is its number.
+// A sensor of another kind. Reading::sensor is its number.
 struct SensorRecord {
-  std::string name;      // of labels and files
+  std::string name;      // of labels, files and folders
   std::string topic;     // ROS: prefix of its topics
   std::string frame_id;  // TF
   std::string carrier;   // TF: the link that carries it; empty: the rig
   Pose rig_from_sensor;  // or in the link; axes: X forward, Y left, Z up
   std::shared_ptr<const ReadingFormat> format;  // never null
+
+  bool scans() const { return format->most_points() > 0; }  // whether its readings are scans
 };
 
 // A robot. RobotSample::sensor is its number.
@@ -131,7 +123,6 @@ struct Recording {
   std::string rig = "camera_link";       // TF: frame that follows the trajectory
   std::vector<CameraRecord> cameras{1};  // at least one
   std::vector<ImuRecord> imus;           // empty without inertial units
-  std::vector<LidarRecord> lidars;
   std::vector<SensorRecord> sensors;
   std::vector<RobotRecord> robots;
   std::optional<RigMount> mount;         // of the rig, on a robot

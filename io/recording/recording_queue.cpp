@@ -38,7 +38,8 @@ struct RecordingQueue::Shared {
   // Frames and scans are what takes memory.
   std::size_t count_frames() const {
     return std::size_t(std::count_if(samples.begin(), samples.end(), [](const auto& sample) {
-      return std::holds_alternative<Frame>(*sample) || std::holds_alternative<LidarScan>(*sample);
+      const auto* reading = std::get_if<Reading>(sample.get());
+      return std::holds_alternative<Frame>(*sample) || (reading && reading->scan);
     }));
   }
   bool drained() const {
@@ -166,21 +167,21 @@ const char* find_not_finite(const RobotSample& s) {
   return finite ? nullptr : "motion";
 }
 
-const char* find_not_finite(const LidarScan& scan) {
-  for (const LidarPoint& p : scan.points)
+// Its values may be infinite or unknown.
+const char* find_not_finite(const Reading& reading) {
+  if (!reading.scan) return nullptr;
+  for (const ScanPoint& p : reading.scan->points)
     if (!std::isfinite(p.x + p.y + p.z) || !std::isfinite(p.intensity)) return "echo";
   return nullptr;
 }
-
-// It may be infinite or unknown.
-const char* find_not_finite(const Reading&) { return nullptr; }
 
 std::string describe(const Frame& frame) { return "frame " + std::to_string(frame.index); }
 std::string describe(const ImuSample& sample) {
   return "the reading at " + std::to_string(sample.stamp_ns) + " ns";
 }
-std::string describe(const Reading& reading) { return "the reading at " + std::to_string(reading.stamp_ns) + " ns"; }
-std::string describe(const LidarScan& scan) { return "scan " + std::to_string(scan.index); }
+std::string describe(const Reading& reading) {
+  return reading.scan ? "scan " + std::to_string(reading.scan->index) : "the reading at " + std::to_string(reading.stamp_ns) + " ns";
+}
 
 std::string describe(const RobotSample& sample) {
   return "what a robot senses at " + std::to_string(sample.stamp_ns) + " ns";

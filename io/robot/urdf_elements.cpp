@@ -17,7 +17,7 @@ const char* what_is_lost(const std::string& element) {
       {"transmission", "motors act on joints, without gears"},
       {"gazebo", "settings and plugins of Gazebo"},
       {"ros2_control", "a mission has its own controllers"},
-      {"sensor", "sensors are in the mission: `cameras`, `lidars`, `imus`"},
+      {"sensor", "sensors are in the mission: `cameras`, `imus` and so on (docs/reference/sensors.md)"},
       {"safety_controller", "limits are those of <limit>"},
       {"calibration", "encoders start calibrated"},
       {"texture", "surfaces of URDF materials have one colour"},

@@ -66,21 +66,28 @@ void McapWriter::write_bytes(std::string_view bytes) {
 
 std::uint16_t McapWriter::add_channel(const McapTopic& topic) {
   topics_.push_back(topic);
+  if (schema_of(topic) == 0) types_.push_back(topic);
   counts_.push_back(0);
   chunk_.index.emplace_back();
   return static_cast<std::uint16_t>(topics_.size() - 1);
 }
 
-// Every channel has a schema of its own; equal ones are not shared, which costs a few kilobytes.
-// Number 0 means "none" in the format.
+// Numbers begin at 1: 0 means "none" in the format.
+std::uint16_t McapWriter::schema_of(const McapTopic& topic) const {
+  for (std::size_t i = 0; i < types_.size(); ++i)
+    if (types_[i].type == topic.type && types_[i].schema == topic.schema) return static_cast<std::uint16_t>(i + 1);
+  return 0;
+}
+
+// One for each type: readers look a type up by its name and take the channels of the first schema that has it.
 std::string McapWriter::schemas() const {
   std::string out;
-  for (std::size_t i = 0; i < topics_.size(); ++i) {
+  for (std::size_t i = 0; i < types_.size(); ++i) {
     std::string content;
     put(content, static_cast<std::uint16_t>(i + 1));
-    put_text(content, topics_[i].type);
+    put_text(content, types_[i].type);
     put_text(content, "ros2msg");
-    put_text(content, topics_[i].schema);
+    put_text(content, types_[i].schema);
     out += record(kSchema, content);
   }
   return out;
@@ -93,7 +100,7 @@ std::string McapWriter::channels() const {
     put_text(metadata, "offered_qos_profiles");
     put_text(metadata, topics_[i].qos);
     put(content, static_cast<std::uint16_t>(i));
-    put(content, static_cast<std::uint16_t>(i + 1));
+    put(content, schema_of(topics_[i]));
     put_text(content, topics_[i].topic);
     put_text(content, "cdr");
     put_text(content, metadata);
@@ -106,6 +113,9 @@ void McapWriter::write(std::uint16_t channel, std::int64_t stamp_ns, std::string
   if (stamp_ns < 0)
     throw RunError("an MCAP file cannot hold the stamp " + std::to_string(stamp_ns) + " ns");
   const auto time = static_cast<std::uint64_t>(stamp_ns);
+  const bool first = std::all_of(counts_.begin(), counts_.end(), [](std::uint32_t count) { return count == 0; });
+  first_time_ = first ? time : std::min(first_time_, time);
+  last_time_ = std::max(last_time_, time);
   std::string& out = chunk_.records;
   if (out.empty()) chunk_.first_time = chunk_.last_time = time;
   chunk_.first_time = std::min(chunk_.first_time, time);
@@ -206,7 +216,7 @@ std::string McapWriter::statistics() const {
     last = std::max(last, chunk.last_time);
   }
   put(content, messages);
-  put(content, static_cast<std::uint16_t>(topics_.size()));  // schemas
+  put(content, static_cast<std::uint16_t>(types_.size()));   // schemas
   put(content, static_cast<std::uint32_t>(topics_.size()));  // channels
   put(content, std::uint32_t{0});                            // attachments
   put(content, std::uint32_t{0});                            // metadata
@@ -215,6 +225,10 @@ std::string McapWriter::statistics() const {
   put(content, last);
   put_text(content, per_channel);
   return record(kStatistics, content);
+}
+
+McapSummary McapWriter::summary() const {
+  return {topics_, counts_, static_cast<std::int64_t>(first_time_), static_cast<std::int64_t>(last_time_)};
 }
 
 void McapWriter::finish() {

@@ -1,6 +1,6 @@
 // MCAP files (mcap.dev/spec), as ROS 2 records since Iron, without ROS.
 //
-// Messages are gathered into chunks, each compressed by zstd on one of several threads and written
+// Topics of one type share its schema. Messages are gathered into chunks, each compressed by zstd on one of several threads and written
 // in order. The file ends in a summary (schemas, channels, chunk index, statistics), so that
 // readers find any time at once. Every checksum of the format is filled in. Nothing of the machine
 // or the clock is in the file.
@@ -25,6 +25,13 @@ struct McapTopic {
   std::string qos;     // offered_qos_profiles of rosbag2, YAML
 };
 
+// What an index of the file says of it: metadata.yaml of rosbag2.
+struct McapSummary {
+  std::vector<McapTopic> topics;           // in the order of their channels
+  std::vector<std::uint32_t> counts;       // messages of each
+  std::int64_t first_ns = 0, last_ns = 0;  // stamps of the first and the last message; both 0: there is none
+};
+
 class McapWriter {
  public:
   McapWriter(const std::string& path, McapCompression compression, int threads);
@@ -34,6 +41,7 @@ class McapWriter {
   // stamp_ns: >= 0; throws RunError otherwise. `sequence` counts the messages of a channel.
   void write(std::uint16_t channel, std::int64_t stamp_ns, std::string_view message);
   void finish();
+  McapSummary summary() const;  // of all that was written
 
  private:
   struct IndexEntry {
@@ -54,6 +62,7 @@ class McapWriter {
   void close_chunk();
   void write_chunk(const Chunk& chunk, const std::string& bytes, std::uint32_t crc,
                    std::uint64_t compressed_size);
+  std::uint16_t schema_of(const McapTopic& topic) const;
   std::string schemas() const;
   std::string channels() const;
   std::string chunk_indexes() const;
@@ -63,9 +72,11 @@ class McapWriter {
   std::uint32_t crc_ = 0;  // of all bytes written so far
   McapCompression compression_;
   std::vector<McapTopic> topics_;
+  std::vector<McapTopic> types_;       // the first topic of each type: its schema is that of the others
   std::vector<std::uint32_t> counts_;  // messages per channel
   std::vector<ChunkInfo> chunks_;
   bool announced_ = false;  // schemas and channels stand in front of the first chunk
+  std::uint64_t first_time_ = 0, last_time_ = 0;  // of all messages
   Chunk chunk_;             // the open one
   OrderedTasks tasks_;      // last, so that it goes first: its tasks refer to the others
 };

@@ -143,12 +143,12 @@ std::string imu(Version version, const Header& header, const ImuSample& sample,
   return out.take();
 }
 
-std::string point_cloud(Version version, const Header& header, const std::vector<LidarPoint>& points) {
+std::string point_cloud(Version version, const Header& header, const std::vector<ScanPoint>& points) {
   const auto count = static_cast<std::uint32_t>(points.size());
   std::string data(points.size() * kPointStep, '\0');
   for (std::size_t i = 0; i < points.size(); ++i) {
     char* const at = data.data() + i * kPointStep;
-    const LidarPoint& p = points[i];
+    const ScanPoint& p = points[i];
     const float place[] = {p.x, p.y, p.z, p.intensity};
     std::memcpy(at, place, sizeof place);
     std::memcpy(at + kPointFields[4].offset, &p.ring, sizeof p.ring);
@@ -173,11 +173,11 @@ std::string point_cloud(Version version, const Header& header, const std::vector
   return out.take();
 }
 
-std::string laser_scan(Version version, const Header& header, const LidarSpec& spec,
-                       const std::vector<LidarPoint>& points) {
+std::string laser_scan(Version version, const Header& header, const RangeScan& scan) {
+  const auto& spec = *scan.spec;
   const auto columns = static_cast<std::size_t>(spec.columns);
   std::vector<float> ranges(columns, std::numeric_limits<float>::infinity()), intensities(columns, 0);
-  for (auto p = points.rbegin(); p != points.rend(); ++p) {
+  for (auto p = scan.points.rbegin(); p != scan.points.rend(); ++p) {
     ranges.at(p->column) = std::sqrt(p->x * p->x + p->y * p->y + p->z * p->z);
     intensities[p->column] = p->intensity;
   }
@@ -228,7 +228,8 @@ std::string put_odometry(Version version, const Header& header, const std::strin
   return out.take();
 }
 
-constexpr double kUnknown = 1e6, kLeast = 1e-6;  // variances in SI units
+// Variances in SI units. Of the truth it is not 0: filters cannot invert that, and readers take it for an unknown one.
+constexpr double kUnknown = 1e6, kLeast = 1e-6, kExact = 1e-9;
 
 Covariance unknown_out_of_plane() {
   Covariance covariance{};
@@ -240,7 +241,9 @@ Covariance unknown_out_of_plane() {
 
 std::string true_odometry(Version version, const Header& header, const std::string& child, const Pose& pose,
                           const Vec3& linear, const Vec3& angular) {
-  return put_odometry(version, header, child, pose, {}, linear, angular, {});
+  Covariance exact{};
+  for (std::size_t axis = 0; axis < 6; ++axis) exact[axis][axis] = kExact;
+  return put_odometry(version, header, child, pose, exact, linear, angular, exact);
 }
 
 std::string odometry(Version version, const Header& header, const std::string& child, const RobotSample::Odometry& o) {

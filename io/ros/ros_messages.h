@@ -12,8 +12,7 @@
 #include "io/ros/ros_wire.h"
 #include "kernel/base/math.h"
 #include "render/scene/frame.h"
-#include "render/scene/lidar_scan.h"
-#include "render/scene/lidar_spec.h"
+#include "render/scene/range_scan.h"
 #include "render/scene/robot_sample.h"
 
 namespace rubble::ros {
@@ -69,7 +68,8 @@ std::string imu(Version version, const Header& header, const ImuSample& sample,
 std::string joint_state(Version version, const Header& header, const std::vector<std::string>& names,
                         const std::vector<double>& positions, const std::vector<double>& speeds,
                         const std::vector<double>& efforts);
-// header.frame: the one that `pose` is in; velocities in the child's own. Exact, so its covariances are all 0.
+// header.frame: the one that `pose` is in; velocities in the child's own. Exact: its variances are 1e-9,
+// which filters can invert.
 std::string true_odometry(Version version, const Header& header, const std::string& child, const Pose& pose,
                           const Vec3& linear, const Vec3& angular);
 // What dead reckoning does not tell (height, roll, pitch) has the variance 1e6; no other is below 1e-6.
@@ -93,10 +93,9 @@ std::string event_array(Version version, const Header& header, const Intrinsics&
                         const std::vector<Event>& events);
 
 // Unordered, dense: x, y, z, intensity (float32), ring (uint16), time (float32, s since the stamp).
-std::string point_cloud(Version version, const Header& header, const std::vector<LidarPoint>& points);
+std::string point_cloud(Version version, const Header& header, const std::vector<ScanPoint>& points);
 // Of a planar pattern: a range for every column, inf where there is no echo (REP 117); of two echoes of a
 // ray the first of the scan.
-std::string laser_scan(Version version, const Header& header, const LidarSpec& spec,
-                       const std::vector<LidarPoint>& points);
+std::string laser_scan(Version version, const Header& header, const RangeScan& scan);
 
 }  // namespace rubble::ros

@@ -5,6 +5,7 @@
 #include "io/image/depth_encoding.h"
 #include "io/image/image_file.h"
 #include "io/image/jpeg_file.h"
+#include "io/ros/vector_colours.h"
 #include "io/recording/frame_order.h"
 #include "io/ros/robot_topics.h"
 #include "render/streams/image_streams.h"
@@ -27,7 +28,7 @@ StreamSet floats_first(StreamSet streams) {
 // Numbers of a camera's topics.
 struct CameraTopics {
   std::uint32_t rgb_info = 0, rgb = 0, depth_info = 0, depth = 0, right_info = 0, right = 0,
-                events = 0, true_depth_info = 0, true_depth = 0;
+                events = 0, true_depth_info = 0, true_depth = 0, pose = 0;
   std::vector<std::uint32_t> truth;  // of the streams
 };
 
@@ -40,7 +41,6 @@ class RosRecorder : public Recorder {
         recording_(options.recording),
         order_(path, channels_of(options.recording)),
         imu_counts_(options.recording.imus.size()),
-        scan_counts_(options.recording.lidars.size()),
         reading_counts_(options.recording.sensors.size()) {
     for (CameraRecord& camera : recording_.cameras)
       camera.channels.truth = floats_first(camera.channels.truth);
@@ -89,17 +89,6 @@ class RosRecorder : public Recorder {
       early_.push_back(sample);
   }
 
-  void write_lidar(const LidarScan& scan) override {
-    tick(scan.stamp_ns);
-    const auto i = std::size_t(scan.sensor);
-    const LidarRecord& lidar = recording_.lidars.at(i);
-    const ros::Header stamped{scan_counts_[i]++, scan.stamp_ns, lidar.frame_id};
-    file_->write(lidars_[i], scan.stamp_ns,
-                 lidar.spec.pattern == LidarPattern::planar
-                     ? ros::laser_scan(version_, stamped, lidar.spec, scan.points)
-                     : ros::point_cloud(version_, stamped, scan.points));
-  }
-
   void write_reading(const Reading& reading) override {
     tick(reading.stamp_ns);
     const auto i = std::size_t(reading.sensor);
@@ -113,6 +102,7 @@ class RosRecorder : public Recorder {
 
  private:
   bool compressed() const { return options_.pictures != RosPictures::raw; }
+  bool has_colours(const ImageStream& stream) const { return options_.vector_colours && stream.components > 1 && std::holds_alternative<PixelMaker<float>>(stream.make); }
   bool packed_depth() const { return compressed() && options_.depth == RosDepth::millimetres; }
 
   // Other sensors stand among the topics of the first camera, before its ground truth.
@@ -137,10 +127,6 @@ class RosRecorder : public Recorder {
   void add_other_sensors() {
     for (const ImuRecord& imu : recording_.imus)
       imus_.push_back(file_->add(imu.topic, ros::kImu, false));
-    for (const LidarRecord& lidar : recording_.lidars) {
-      const bool planar = lidar.spec.pattern == LidarPattern::planar;
-      lidars_.push_back(file_->add(lidar.topic, planar ? ros::kLaserScan : ros::kPointCloud, false));
-    }
     for (const SensorRecord& sensor : recording_.sensors) {
       std::vector<std::uint32_t>& topics = sensors_.emplace_back();
       for (const ReadingFormat::Topic& topic : sensor.format->topics())
@@ -169,12 +155,13 @@ class RosRecorder : public Recorder {
 
   void add_ground_truth(const CameraRecord& camera, CameraTopics& topics) {
     const std::string truth = camera.truth_topic + "/";
+    if (!camera.carrier.empty()) topics.pose = file_->add(truth + "pose", ros::kPoseStamped, false);
     if (camera.channels.measured_depth) {
       topics.true_depth_info = file_->add(truth + "depth/camera_info", ros::kCameraInfo, false);
       topics.true_depth = file_->add(truth + "depth/image", ros::kImage, false);
     }
     for (const ImageStream* stream : camera.channels.truth)
-      topics.truth.push_back(file_->add(truth + stream->name + "/image", ros::kImage, false));
+      topics.truth.push_back(file_->add(truth + stream->name + (has_colours(*stream) ? "/colours/image" : "/image"), ros::kImage, false));
   }
 
   std::uint32_t add_picture(const std::string& topic) {
@@ -233,8 +220,6 @@ class RosRecorder : public Recorder {
     if (recording_.mount)
       fixed.push_back({recording_.rig, recording_.mount->parent_from_rig, recording_.mount->parent});
     robots_->add_transforms(fixed);
-    for (const LidarRecord& lidar : recording_.lidars)
-      fixed.push_back({lidar.frame_id, lidar.rig_from_lidar, recording_.frame_of(lidar.carrier)});
     for (const SensorRecord& sensor : recording_.sensors)
       fixed.push_back({sensor.frame_id, sensor.rig_from_sensor, recording_.frame_of(sensor.carrier)});
     send(tf_static_, frame,
@@ -298,6 +283,8 @@ class RosRecorder : public Recorder {
 
   void write_ground_truth(const Frame& frame, const CameraRecord& camera,
                           const CameraTopics& topics) {
+    if (!camera.carrier.empty())
+      send(topics.pose, frame, ros::pose_stamped(version_, header(frame, ros::kWorld), frame.world_from_camera));
     if (camera.channels.measured_depth) {
       send(topics.true_depth_info, frame,
            ros::camera_info(version_, header(frame, camera.optical), frame.intrinsics));
@@ -306,6 +293,11 @@ class RosRecorder : public Recorder {
     const StreamSet& streams = camera.channels.truth;
     for (std::size_t i = 0; i < streams.size(); ++i) {
       const ImageStream& stream = *streams[i];
+      if (has_colours(stream)) {
+        const auto& values = *std::get<const std::vector<float>*>(*find_image(frame, stream));
+        send_image(topics.truth[i], frame, camera.optical, "rgb8", 3, colour_vectors(stream, values, frame.intrinsics.width));
+        continue;
+      }
       std::visit(
           [&](const auto* values) {
             send_image(topics.truth[i], frame, camera.optical, stream.ros_encoding(),
@@ -325,12 +317,11 @@ class RosRecorder : public Recorder {
   std::int64_t last_ns_ = -1;              // of the last instant
   std::int64_t clock_ns_ = -1;             // of the last tick
   std::vector<std::uint32_t> imu_counts_;   // readings of each unit
-  std::vector<std::uint32_t> scan_counts_;  // scans of each LiDAR
   std::vector<std::uint32_t> reading_counts_;  // of each other sensor
   // Numbers of the topics.
   std::uint32_t clock_ = 0, tf_static_ = 0, tf_ = 0, pose_ = 0, legend_ = 0;
   std::vector<CameraTopics> cameras_;
-  std::vector<std::uint32_t> imus_, lidars_;
+  std::vector<std::uint32_t> imus_;
   std::vector<std::vector<std::uint32_t>> sensors_;
   std::unique_ptr<RobotTopics> robots_;
   std::vector<RobotSample> early_;  // that came before the first frame

@@ -11,12 +11,14 @@
 //   /camera/right/image_raw, .../camera_info   in camera_right_optical_frame; P[3] = -fx baseline
 //   /camera/events              dvs_msgs/EventArray, at the frame's stamp, those since the one before
 //   /imu                        sensor_msgs/Imu, each at its own stamp
-//   /points                     sensor_msgs/PointCloud2, a scan of a LiDAR at the stamp of its first ray
+//   /points                     sensor_msgs/PointCloud2, a scan at the stamp of its first ray
 //   /scan                       sensor_msgs/LaserScan, of a 2-D scanner
 //   /NAME                       other sensors, in the messages of their kinds (docs/reference/sensors.md)
 //   /ground_truth/depth/image   32FC1, m: exact, where the depth above is that of a sensor
+//   /NAME/ground_truth/pose     geometry_msgs/PoseStamped of a camera on a robot: its body in `world`
 //   /ground_truth/NAME/image    streams of ground truth, by their names and in the encodings that their
 //                               types have; a piece number is 32SC1: -1: ground; -2: nothing
+//   /ground_truth/NAME/colours/image   in its place, where vectors are colours: rgb8 (io/ros/vector_colours.h)
 //   /ground_truth/legend        std_msgs/String, JSON (legend_to_json), latched
 //   robots                      io/ros/robot_topics.h; where one carries the rig, that hangs on its link in
 //                               /tf_static instead of on the world in /tf
@@ -52,6 +54,7 @@ struct RosOptions {
   RosDepth depth = RosDepth::millimetres;   // encoding of depth images
   RosPictures pictures = RosPictures::raw;  // compression of pictures
   Recording recording;                      // what is recorded, and under which names
+  bool vector_colours = false;              // streams of several values as rgb8, in .../NAME/colours/image
 };
 
 // A file that holds ROS messages.

@@ -183,8 +183,8 @@ class MjcfBuilder {
 
   // gain * control + bias; bias by position and speed: MuJoCo's <position> and <velocity> for all versions.
   void add_actuator(const SimModel& model, const SimJoint& joint) {
-    const std::string name = joint_name(model, joint);
-    std::string text = "    <general name=\"" + name + "\" joint=\"" + name + "\"";
+    const std::string xml_name = joint_name(model, joint);
+    std::string text = "    <general name=\"" + xml_name + "\" joint=\"" + xml_name + "\"";
     const double kp = joint.drive_stiffness, kd = joint.drive_damping;
     if (joint.drive == SimDrive::position)
       text += " biastype=\"affine\"" + attribute("gainprm", exact_text(kp)) + attribute("biasprm", number_list({0, -kp, -kd}));
@@ -219,13 +219,13 @@ class MjcfBuilder {
     }
     const auto next = int(hulls_.size());
     const auto [found, is_new] = hulls_.try_emplace({part.shape, int(k), part.scale}, next);
-    const std::string name = "hull_" + std::to_string(found->second);
+    const std::string xml_name = "hull_" + std::to_string(found->second);
     if (is_new) {
       std::string corners;
       for (const Vec3& p : shape.hulls[k].points) corners += (corners.empty() ? "" : " ") + vector_text(p * part.scale);
-      assets_ += "    <mesh name=\"" + name + "\"" + attribute("vertex", corners) + "/>\n";
+      assets_ += "    <mesh name=\"" + xml_name + "\"" + attribute("vertex", corners) + "/>\n";
     }
-    return geom + attribute("mesh", name) + place(part.link_from_part) + "/>\n";
+    return geom + attribute("mesh", xml_name) + place(part.link_from_part) + "/>\n";
   }
 
   std::string visual_text(const SimPart& part, const std::string& indent) {
@@ -236,11 +236,11 @@ class MjcfBuilder {
       if (file.empty()) continue;
       const auto next = int(visuals_.size());
       const auto [found, is_new] = visuals_.try_emplace({part.mesh, int(s), part.scale}, next);
-      const std::string name = "visual_" + std::to_string(found->second);
+      const std::string xml_name = "visual_" + std::to_string(found->second);
       if (is_new)
-        assets_ += "    <mesh name=\"" + name + "\" inertia=\"shell\"" + attribute("file", xml_text(file)) +
+        assets_ += "    <mesh name=\"" + xml_name + "\" inertia=\"shell\"" + attribute("file", xml_text(file)) +
                    attribute("scale", number_list({part.scale, part.scale, part.scale})) + "/>\n";
-      text += indent + "<geom class=\"visual\"" + attribute("mesh", name) + attribute("material", xml_text(surface_name(mesh, s))) +
+      text += indent + "<geom class=\"visual\"" + attribute("mesh", xml_name) + attribute("material", xml_text(surface_name(mesh, s))) +
               place(part.link_from_part) + "/>\n";
     }
     return text;

@@ -18,7 +18,7 @@ void write_glb_of(const std::string& path, const ExportModel& model) { write_glb
 
 // A welded mesh has about half as many vertices as triangles; a number as text takes up to 12
 // bytes. A piece has a dozen convex parts at most on the average, each with a dozen corners.
-constexpr double kFileBytes = 1000, kObjTriangle = 190, kGlbTriangle = 150, kSceneTriangle = 300, kUsdTriangle = 500,
+constexpr double kFileBytes = 1000, kObjTriangle = 90, kGlbTriangle = 150, kSceneTriangle = 300, kUsdTriangle = 500,
                  kPictureBytes = 160e3, kScenePictures = 20;
 
 double estimate_scene(const PileModelSize& s, double piece, double triangle) {

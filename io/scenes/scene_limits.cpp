@@ -21,7 +21,7 @@ bool is_dry(const SimJoint& joint) { return joint.friction > 0; }
 bool is_slider_loop(const SimJoint& joint) { return joint.loop && joint.kind == JointKind::slider; }
 
 std::vector<std::string> drop_empty(std::vector<std::string> sentences) {
-  sentences.erase(std::remove(sentences.begin(), sentences.end(), ""), sentences.end());
+  sentences.erase(std::remove_if(sentences.begin(), sentences.end(), [](const std::string& s) { return s.empty(); }), sentences.end());
   return sentences;
 }
 

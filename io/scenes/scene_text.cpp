@@ -137,7 +137,7 @@ std::string mesh_obj(const std::string& name, const TriangleMesh& mesh) {
   piece.name = name;
   std::string text = std::string(kObjComment) + "mtllib materials.mtl\n";
   ObjCounts counts;
-  put_obj_object(text, piece, mesh, weld(mesh), counts, true);
+  put_obj_object(text, piece, mesh, weld(mesh), ObjContent::looks, counts);
   return text;
 }
 
@@ -148,7 +148,7 @@ std::string plain_obj(const std::string& name, TriangleMesh mesh) {
   piece.name = name;
   std::string text = kObjComment;
   ObjCounts counts;
-  put_obj_object(text, piece, mesh, weld(mesh), counts);
+  put_obj_object(text, piece, mesh, weld(mesh), ObjContent::solid, counts);
   return text;
 }
 
@@ -159,7 +159,7 @@ std::string surface_obj(const std::string& name, const TriangleMesh& surface) {
   piece.name = name;
   std::string text = kObjComment;
   ObjCounts counts;
-  put_obj_object(text, piece, surface, welded, counts, true);
+  put_obj_object(text, piece, surface, welded, ObjContent::looks, counts);
   return text;
 }
 

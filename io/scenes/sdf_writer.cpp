@@ -99,8 +99,8 @@ class SdfBuilder {
   std::string link_text(int model_index, int index, bool still) const {
     const SimModel& model = model_.sim.models[std::size_t(model_index)];
     const SimLink& link = model.links[std::size_t(index)];
-    const std::string name = model.links.size() == 1 ? "link" : xml_text(link.name);
-    std::string text = "      <link name=\"" + name + "\">\n";
+    const std::string xml_name = model.links.size() == 1 ? "link" : xml_text(link.name);
+    std::string text = "      <link name=\"" + xml_name + "\">\n";
     if (index > 0) text += "        " + pose_text(model.links[0].world_from_link.inverse() * link.world_from_link) + "\n";
     if (!still) text += inertial_text(link);
     int number = 0;

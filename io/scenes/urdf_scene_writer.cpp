@@ -37,8 +37,8 @@ class UrdfBuilder {
   UrdfBuilder(const ExportModel& model, const SceneMeshFiles& meshes, std::string up)
       : model_(model), meshes_(meshes), up_(std::move(up)) {}
 
-  std::string link_text(const std::string& name, const SimLink& link, bool moves) const {
-    std::string text = "  <link name=\"" + name + "\">\n";
+  std::string link_text(const std::string& xml_name, const SimLink& link, bool moves) const {
+    std::string text = "  <link name=\"" + xml_name + "\">\n";
     double friction = 0.8;
     if (moves) text += inertial_text(link);
     for (const SimPart& part : link.parts) {
@@ -99,9 +99,9 @@ class UrdfBuilder {
   }
 
  private:
-  static std::string head(const std::string& name, const char* kind, const std::string& parent, const std::string& child,
+  static std::string head(const std::string& xml_name, const char* kind, const std::string& parent, const std::string& child,
                           const Pose& pose) {
-    return "  <joint name=\"" + name + "\" type=\"" + kind + "\">\n    <parent link=\"" + parent + "\"/><child link=\"" + child +
+    return "  <joint name=\"" + xml_name + "\" type=\"" + kind + "\">\n    <parent link=\"" + parent + "\"/><child link=\"" + child +
            "\"/>" + origin(pose) + "\n";
   }
 
@@ -112,13 +112,13 @@ class UrdfBuilder {
   }
 
   static std::string joint_text(const SimModel& model, const std::vector<SimLink>& links, const SimJoint& joint) {
-    const std::string name = xml_text(joint.name), parent = xml_text(links[std::size_t(joint.parent)].name),
+    const std::string xml_name = xml_text(joint.name), parent = xml_text(links[std::size_t(joint.parent)].name),
                       child = xml_text(links[std::size_t(joint.child)].name);
-    if (joint.kind == JointKind::ball) return ball_text(links, joint, name, parent, child);
+    if (joint.kind == JointKind::ball) return ball_text(links, joint, xml_name, parent, child);
     const Pose pose = at_zero(model, joint);
-    if (joint.kind == JointKind::weld) return head(name, "fixed", parent, child, pose) + "  </joint>\n";
+    if (joint.kind == JointKind::weld) return head(xml_name, "fixed", parent, child, pose) + "  </joint>\n";
     const bool limited = joint.lower > -kFreeLimit || joint.upper < kFreeLimit, slides = joint.kind == JointKind::slider;
-    std::string text = head(name, slides ? "prismatic" : limited ? "revolute" : "continuous", parent, child, pose);
+    std::string text = head(xml_name, slides ? "prismatic" : limited ? "revolute" : "continuous", parent, child, pose);
     text += "    <axis xyz=\"" + vector_text(joint.axis) + "\"/>";
     if (limited || slides)
       text += "<limit effort=\"0\" velocity=\"" + exact_text(kAnySpeed) + "\" lower=\"" +
@@ -128,10 +128,10 @@ class UrdfBuilder {
   }
 
   // Three hinges, about X, Y and Z; all are at 0 where the child is now.
-  static std::string ball_text(const std::vector<SimLink>& links, const SimJoint& joint, const std::string& name,
+  static std::string ball_text(const std::vector<SimLink>& links, const SimJoint& joint, const std::string& xml_name,
                                const std::string& parent, const std::string& child) {
     const Pose now = links[std::size_t(joint.parent)].world_from_link.inverse() * links[std::size_t(joint.child)].world_from_link;
-    const std::string between[4] = {parent, name + "_x", name + "_y", child};
+    const std::string between[4] = {parent, xml_name + "_x", xml_name + "_y", child};
     const Vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     std::string text;
     for (int i = 0; i < 3; ++i) {
@@ -140,7 +140,7 @@ class UrdfBuilder {
         text += "  <link name=\"" + between[i] + "\">\n    <inertial><mass value=\"" + exact_text(kTinyMass) + "\"/><inertia ixx=\"" + tiny +
                 "\" ixy=\"0\" ixz=\"0\" iyy=\"" + tiny + "\" iyz=\"0\" izz=\"" + tiny + "\"/></inertial>\n  </link>\n";
       }
-      text += head(name + "_" + std::to_string(i + 1), "continuous", between[i], between[i + 1], i == 0 ? now : Pose{}) +
+      text += head(xml_name + "_" + std::to_string(i + 1), "continuous", between[i], between[i + 1], i == 0 ? now : Pose{}) +
               "    <axis xyz=\"" + vector_text(axes[i]) + "\"/><dynamics damping=\"" + exact_text(joint.damping) + "\" friction=\"" +
               exact_text(joint.friction) + "\"/>\n  </joint>\n";
     }
@@ -158,8 +158,8 @@ bool stands(const SimModel& model) { return model.fixed && model.links.size() ==
 std::string standing_text(const ExportModel& model, const SceneMeshFiles& meshes) {
   const UrdfBuilder builder(model, meshes, "");
   std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"fixed\">\n  <link name=\"world\"/>\n";
-  const auto hang = [&](const std::string& name, const Pose& pose) {
-    text += "  <joint name=\"" + name + "_joint\" type=\"fixed\">\n    <parent link=\"world\"/><child link=\"" + name + "\"/>" +
+  const auto hang = [&](const std::string& xml_name, const Pose& pose) {
+    text += "  <joint name=\"" + xml_name + "_joint\" type=\"fixed\">\n    <parent link=\"world\"/><child link=\"" + xml_name + "\"/>" +
             origin(pose) + "\n  </joint>\n";
   };
   for (const SimModel& m : model.sim.models) {
@@ -169,12 +169,12 @@ std::string standing_text(const ExportModel& model, const SceneMeshFiles& meshes
   }
   for (std::size_t i = 0; i < model.sim.surfaces.size(); ++i) {
     const SimSurface& surface = model.sim.surfaces[i];
-    const std::string name = xml_text(surface.name) + "_surface";
+    const std::string xml_name = xml_text(surface.name) + "_surface";
     // Bullet's word for contacts of the triangles, not of their hull; others ignore it.
-    text += "  <link name=\"" + name + "\" concave=\"yes\">\n    <collision concave=\"yes\"><geometry>" +
+    text += "  <link name=\"" + xml_name + "\" concave=\"yes\">\n    <collision concave=\"yes\"><geometry>" +
             mesh_text(meshes.surfaces[i], surface.scale) + "</geometry></collision>\n" +
             UrdfBuilder::contact_text(surface.friction) + "  </link>\n";
-    hang(name, surface.world_from_mesh);
+    hang(xml_name, surface.world_from_mesh);
   }
   return text + "</robot>\n";
 }

@@ -24,6 +24,7 @@ void save_fines(const Fines& fines, const std::string& path);
 
 // pieces: of the pile that the fines lie on. Throws InputError for a missing, foreign, truncated or altered file,
 // another version, numbers that are not finite, and what refers to a piece, shape or surface that is not there.
+// They have no heaps: heap_fines() makes them.
 Fines load_fines(const std::string& path, std::size_t pieces);
 
 }  // namespace rubble

@@ -34,9 +34,10 @@ Fines strew_fines(const PileState& pile, const std::vector<const TriangleMesh*>&
   const FragmentTable fragments(bare, meshes);
   heap_drifts({bare, pieces, sites, fragments, options, {}}, spec.drifts, bare.fines.sheets);
   Fines fines = bare.fines;
+  heap_fines(bare.fines);
   const PileQueries queries(bare, meshes);
   GrainGround ground{bare, queries, sites, fragments, options};
-  for (const FineHeap& heap : make_fine_heaps(bare.fines)) ground.heap_hosts.push_back(heap.host);
+  for (const FineHeap& heap : bare.fines.heaps()) ground.heap_hosts.push_back(heap.host);
   const std::array<int, 5> counts = share_amount(spec);
   RoomForFines room;
   hang_strands(ground, FineKind::pipe, spec.pipes, fines.sheets);
@@ -44,6 +45,7 @@ Fines strew_fines(const PileState& pile, const std::vector<const TriangleMesh*>&
   drop_all_sheets(ground, counts, room, fines);
   for (const FineKind kind : {FineKind::plaster, FineKind::glass, FineKind::grit})
     strew_grains(ground, kind, counts[std::size_t(kind)], spec, room, fines.pieces);
+  heap_fines(fines);
   return fines;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <tuple>
 
 #include "kernel/geometry/fine_shapes.h"
@@ -94,7 +95,7 @@ Vec3f middle_of(const TriangleMesh& mesh) {
 
 }  // namespace
 
-std::vector<FineHeap> make_fine_heaps(const Fines& fines) {
+void heap_fines(Fines& fines) {
   std::map<HeapKey, std::pair<std::vector<std::size_t>, std::vector<std::size_t>>> heaps;  // pieces, sheets
   for (std::size_t i = 0; i < fines.pieces.size(); ++i) {
     const FinePiece& piece = fines.pieces[i];
@@ -112,7 +113,7 @@ std::vector<FineHeap> make_fine_heaps(const Fines& fines) {
     for (const std::size_t i : members.first) mesh.add(fines.pieces[i]);
     for (const std::size_t i : members.second) mesh.add(fines.sheets[i]);
   }
-  return made;
+  fines.gathered = std::make_shared<const std::vector<FineHeap>>(std::move(made));
 }
 
 Pose world_from_host(const PileState& pile, int host) {

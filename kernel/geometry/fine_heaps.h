@@ -1,8 +1,6 @@
 // Fines as meshes: all of one kind that lie on one piece, or on the ground, within one cell.
 #pragma once
 
-#include <vector>
-
 #include "kernel/model/fines.h"
 #include "kernel/model/pile_state.h"
 
@@ -12,8 +10,8 @@ namespace rubble {
 // number.
 inline constexpr double kFineCell = 1.0;
 
-// In order of kind, host and cell: the heap number kFirstFineHeap + i is the i-th.
-std::vector<FineHeap> make_fine_heaps(const Fines& fines);
+// Makes what Fines::heaps() returns.
+void heap_fines(Fines& fines);
 
 // Of the frame that a heap's or a fine piece's host has.
 Pose world_from_host(const PileState& pile, int host);

@@ -1,4 +1,4 @@
-// An inflated tube that grows from its tip by turning inside out (eversion): the body of a vine robot. The
+// An inflated tube that grows from its tip by turning inside out (eversion): the body of a robot that grows. The
 // loads that its membrane carries under pressure, and the force of its tip. SI.
 //
 // Sources: Comer and Levy 1963 (bending of an inflated cylinder: wrinkling and collapse); Blumenschein,

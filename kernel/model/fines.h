@@ -1,7 +1,7 @@
 // Fines: debris in a settled pile that is too small or too limp to settle with it. Grit, flakes, shards,
 // sheets and drifts of dust lie on the pieces; cables and pipes hang between them.
 //
-//   PileState + FinesSpec --strew_fines--> Fines --make_fine_heaps--> one mesh a kind, host and cell
+//   PileState + FinesSpec --strew_fines--> Fines, with heaps: one mesh a kind, host and cell
 //
 // Fines are true geometry: they are drawn, labelled and exported, and count in queries and voids. They have no
 // contacts: no piece and no robot feels them.
@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -58,19 +59,24 @@ struct FineSheet {
   TriangleMesh mesh;
 };
 
-struct Fines {
-  std::vector<std::string> surfaces;  // looks, as in TriangleMesh::surface_names
-  std::vector<FinePiece> pieces;      // loose pieces
-  std::vector<FineSheet> sheets;      // all else
-
-  bool empty() const { return pieces.empty() && sheets.empty(); }
-};
-
 // All fines of one kind on one host within one cell of its frame: one mesh with one number.
 struct FineHeap {
   FineKind kind = FineKind::grit;
   std::int32_t host = -1;  // as of a FinePiece
   TriangleMesh mesh;       // closed; in the frame of the host, without its scale
+};
+
+struct Fines {
+  std::vector<std::string> surfaces;  // looks, as in TriangleMesh::surface_names
+  std::vector<FinePiece> pieces;      // loose pieces
+  std::vector<FineSheet> sheets;      // all else
+
+  std::shared_ptr<const std::vector<FineHeap>> gathered{};  // by heap_fines(), which whoever makes or changes fines calls
+
+  bool empty() const { return pieces.empty() && sheets.empty(); }
+  // In order of kind, host and cell: the heap number kFirstFineHeap + i is the i-th. Throws std::logic_error where
+  // nobody called heap_fines().
+  const std::vector<FineHeap>& heaps() const;
 };
 
 // The number of a pile's first heap in the stream `instance`, in exports and in results of queries, where pieces

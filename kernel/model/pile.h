@@ -19,6 +19,8 @@
 
 namespace rubble {
 
+struct BuildingStructures;  // kernel/structure/building.h
+
 // The convex hull of some points, in the frame of the piece. At least 4 points, not coplanar.
 struct ConvexPart {
   std::vector<Vec3> points;  // unit: m
@@ -85,6 +87,7 @@ struct PileSpec {
   // A building that collapses before the first layer falls, and the index of its first piece type.
   BuildingSpec building;
   int building_first_type = 0;  // index into the types; 0 without a building
+  std::shared_ptr<const BuildingStructures> structures;  // of the building; null: they are built where they are needed
   std::vector<Furnishing> furniture;  // of the building
   int layers = 4;               // 0 to 1000
   int pieces_per_layer = 300;   // 0 to 100000; an assembly counts as one
@@ -101,6 +104,7 @@ struct Pile {
   std::vector<Placement> placed;         // before the first layer
   BuildingSpec building;                 // collapses before the first layer falls
   int building_first_type = 0;           // as in the PileSpec
+  std::shared_ptr<const BuildingStructures> structures;  // as in the PileSpec
   std::vector<Layer> layers;             // in the order in which they fall
   // Height above the terrain under the spawn box. Layer k starts at this height, or 1 m above the highest point of
   // the pile if that is higher.

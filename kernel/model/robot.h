@@ -76,12 +76,22 @@ struct MimicJoint {
   double multiplier = 1, offset = 0;
 };
 
-// Differential drive: belts, or wheels that skid or turn in place.
+// A wheel that a joint turns about the vertical axis, as those in front of a car.
+struct SteeredWheel {
+  int joint = 0;        // that steers
+  double sign = 1;      // of its axis; 1: upwards
+  double x = 0, y = 0;  // of the wheel in the base; unit: m
+  int driven = -1;      // the joint of the wheel, if that is driven, too
+};
+
+// Differential drive: belts, or wheels that skid or turn in place; with steered wheels a car (Ackermann).
 struct SideDrive {
   std::vector<int> left, right;  // indices of the wheels' joints, or of the links with belts
   bool belts = false;
   double radius = 0;    // of the wheels; unit: m
   double distance = 0;  // between the sides; unit: m
+  double axle = 0;      // where they are along X: the robot turns about a point beside it; of a car, of its unsteered wheels; unit: m
+  std::vector<SteeredWheel> steered{};
 
   bool any() const { return !left.empty() && !right.empty(); }
 };

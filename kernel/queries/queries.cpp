@@ -50,7 +50,7 @@ QueryPiece make_piece(const PieceState& state, int index, int mesh_index, const 
 }
 
 void add_fines(const PileState& pile, std::vector<QueryMesh>& meshes, std::vector<QueryPiece>& pieces) {
-  const std::vector<FineHeap> heaps = make_fine_heaps(pile.fines);
+  const std::vector<FineHeap>& heaps = pile.fines.heaps();
   for (std::size_t i = 0; i < heaps.size(); ++i) {
     PieceState state;
     state.world_from_body = world_from_host(pile, heaps[i].host);

@@ -3,7 +3,7 @@
 // For camera collision, path planning, label checks and void maps. World frame, lengths in metres. Results are those
 // of the exact triangles in double precision, accurate to 1e-9 m at the distances of a pile, and the same on every
 // machine and for any number of threads. Lost pieces are left out. Fines are included: the number of a heap is
-// kFirstFineHeap plus its index in make_fine_heaps(). Surroundings are included, from kFirstSurrounding on. Several
+// kFirstFineHeap plus its index in Fines::heaps(). Surroundings are included, from kFirstSurrounding on. Several
 // threads may call at once.
 #pragma once
 

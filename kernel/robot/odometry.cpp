@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/robot/drive_commands.h"
 
 namespace rubble {
 namespace {
@@ -41,11 +42,24 @@ double WheelOdometry::way_of(const std::vector<int>& side, const RobotState& sta
   double way = 0;
   for (int i : side) {
     const auto at = std::size_t(i);
-    way += model_->sides.belts
-               ? state.links[at].belt_speed * dt
-               : (state.joints[at].position - last_.joints[at].position) * model_->sides.radius;
+    double own = model_->sides.belts
+                     ? state.links[at].belt_speed * dt
+                     : (state.joints[at].position - last_.joints[at].position) * model_->sides.radius;
+    for (const SteeredWheel& wheel : model_->sides.steered)  // what of it is along the robot
+      if (wheel.driven == i) own *= portable::cos(state.joints[std::size_t(wheel.joint)].position);
+    way += own;
   }
   return way / double(side.size());
+}
+
+// A car turns as its steering says, others by the difference of their sides.
+double WheelOdometry::turn_of(double left, double right, const RobotState& state) const {
+  const SideDrive& sides = model_->sides;
+  if (sides.steered.empty()) return 0.5 * (right - left) / (0.5 * sides.distance);
+  double curvature = 0;
+  for (const SteeredWheel& wheel : sides.steered)
+    curvature += curvature_of(wheel, sides.axle, wheel.sign * state.joints[std::size_t(wheel.joint)].position);
+  return curvature / double(sides.steered.size()) * (0.5 * (left + right));
 }
 
 // First-order propagation along an arc, whose heading is that of its middle.
@@ -82,9 +96,14 @@ OdometryReading WheelOdometry::update(const RobotState& state, double time) {
     const double ran_left = way_of(model_->sides.left, state, dt);
     const double ran_right = way_of(model_->sides.right, state, dt);
     const double left = as_measured(ran_left), right = as_measured(ran_right);
-    const double way = 0.5 * (left + right), turn = 0.5 * (right - left) / half;
+    const double way = 0.5 * (left + right), turn = turn_of(left, right, state);
     const auto [s, c] = portable::sincos(r.yaw + 0.5 * turn);
     r.x += way * c, r.y += way * s;
+    if (const double axle = model_->sides.axle; axle != 0) {  // the base swings about it
+      const auto [s0, c0] = portable::sincos(r.yaw);
+      const auto [s1, c1] = portable::sincos(r.yaw + turn);
+      r.x -= axle * (c1 - c0), r.y -= axle * (s1 - s0);
+    }
     grow_covariance(ran_left, ran_right, way, r.yaw + 0.5 * turn);
     r.yaw = wrapped(r.yaw + turn);
     const double true_turn = wrapped(yaw - true_yaw_);

@@ -1,4 +1,4 @@
-// Odometry of robots with differential drive: readings of belts or wheel encoders, and the truth.
+// Odometry of robots that belts or wheels at their sides drive: their encoders, those of steering, and the truth.
 #pragma once
 
 #include <array>
@@ -55,6 +55,7 @@ class WheelOdometry {
  private:
   void grow_covariance(double ran_left, double ran_right, double way, double heading);
   double way_of(const std::vector<int>& side, const RobotState& state, double dt) const;
+  double turn_of(double left, double right, const RobotState& state) const;
   double as_measured(double way);
 
   const RobotModel* model_;

@@ -64,6 +64,15 @@ RobotRun::RobotRun(const Pile& pile, const PileState& state, const RobotRunOptio
   check(options);
   world_.lay(pile, state, options.fixed_debris);
   world_.set_step(options.step, options.substeps);
+  if (options.restarts) laid_world_ = world_.snapshot();
+}
+
+void RobotRun::restart() {
+  if (!laid_world_) throw RunError("a run of robots is started again without the option for it");
+  world_.restore(*laid_world_);
+  robots_.clear();
+  recorder_ = TrackRecorder();
+  surface_ = -1, steps_ = 0;
 }
 
 int RobotRun::add(const RobotModel& model, const Pose& world_from_base, RobotController controller) {

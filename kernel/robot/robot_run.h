@@ -35,6 +35,7 @@ struct RobotRunOptions {
   double lost_below = -0.5;     // unit: m
   double lost_beyond = 100;     // from the Z axis; unit: m
   int threads = 0;              // 0: all processors; the result does not depend on it
+  bool restarts = false;        // whether restart() may be called; keeps a copy of the laid pile
 };
 
 // Result for one robot.
@@ -73,6 +74,10 @@ class RobotRun {
   void step();
   RobotRunResult finish();
 
+  // Back to before the first add(), with the bits of a new run of the same pile: it is not laid again. What was added
+  // is gone. Throws RunError without the option `restarts`.
+  void restart();
+
   // Before the next step: see World::apply_impulse().
   void apply_impulse(int piece, const Vec3& point, const Vec3& impulse) { world_.apply_impulse(piece, point, impulse); }
 
@@ -101,6 +106,7 @@ class RobotRun {
   std::shared_ptr<const TriangleMesh> surroundings_;  // what is solid of them; none: the plane alone
   int surface_ = -1;                                  // its number in the world; -1: none
   World world_;
+  std::shared_ptr<const World::Snapshot> laid_world_;  // without robots; none: no restarts
   std::vector<Driven> robots_;
   TrackRecorder recorder_;
   std::int64_t steps_ = 0;

@@ -26,6 +26,10 @@ BuildingState describe_building(const World& world, int first, int count) {
   return state;
 }
 
+std::shared_ptr<const BuildingStructures> structures_of(const Pile& pile) {
+  return pile.structures ? pile.structures : std::make_shared<const BuildingStructures>(build_structures(pile.building));
+}
+
 }  // namespace
 
 BuildingCollapse::BuildingCollapse(World& world, const Pile& pile, const SettleOptions& options)
@@ -33,10 +37,9 @@ BuildingCollapse::BuildingCollapse(World& world, const Pile& pile, const SettleO
       motion_(pile.building.cause, pile.building.seed, options.step),
       step_length_(options.step) {
   const BuildingSpec& building = building_;
-  validate(building);
-  const Structure whole = build_building(building);
-  std::vector<SectionForces> before = check_stands(whole, options.gravity);
-  const Structure damaged = build_damaged(building, whole);
+  const auto built = structures_of(pile);
+  const Structure& damaged = built->damaged;
+  const std::vector<SectionForces> before = check_stands(built->whole, options.gravity);
   std::vector<SectionForces> settled;  // of the bonds that are left
   for (const std::int32_t bond : damaged.from_bond) settled.push_back(before[bond]);
   CollapseOptions collapse;
@@ -100,7 +103,8 @@ BuildingState BuildingCollapse::state(const World& world) const {
 }
 
 BuildingState find_building_state(const World& world, const Pile& pile) {
-  const Structure building = make_damaged_building(pile.building);
+  const auto built = structures_of(pile);
+  const Structure& building = built->damaged;
   const int type = pile.building_first_type, end = type + int(building.types.size());
   int first = 0;  // after what is placed
   while (first < world.size() && (world.piece(first).type < type || world.piece(first).type >= end)) ++first;
@@ -118,12 +122,7 @@ void BuildingCollapse::after_step() {
 }
 
 std::vector<PieceType> make_building_types(const BuildingSpec& building) {
-  return make_damaged_building(building).types;
-}
-
-Structure make_damaged_building(const BuildingSpec& building) {
-  validate(building);
-  return build_damaged(building, build_building(building));
+  return build_structures(building).damaged.types;
 }
 
 }  // namespace rubble

@@ -47,7 +47,5 @@ class BuildingCollapse {
 std::vector<PieceType> make_building_types(const BuildingSpec& building);
 // BuildingCollapse::state() where the collapse itself is gone. world: the one that the pile's building collapsed in.
 BuildingState find_building_state(const World& world, const Pile& pile);
-// The building as its cause finds it. Its pieces are in the order in which a pile has them.
-Structure make_damaged_building(const BuildingSpec& building);
 
 }  // namespace rubble

@@ -221,6 +221,7 @@ Pile generate_pile(const PileSpec& spec) {
   for (const Placement& placement : furnish(spec, bounds)) pile.placed.push_back(placement);
   pile.building = spec.building;
   pile.building_first_type = spec.building_first_type;
+  pile.structures = spec.structures;
   pile.spawn_bottom = std::max(spec.spawn_position.z - spec.spawn_bounds.z / 2,
                                lowest_spawn(spec, shapes));
   LayerMaker maker(spec, shapes);

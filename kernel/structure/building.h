@@ -21,5 +21,10 @@ Structure build_building(const BuildingSpec& building);
 // The same with its cause's removed columns taken out, weak columns weakened and an overload added to its
 // floor. Types keep their numbers, except that an overloaded floor has types of its own after them.
 Structure build_damaged(const BuildingSpec& building, const Structure& whole);
+// Both. Throws InputError for keys out of range.
+struct BuildingStructures {
+  Structure whole, damaged;  // a pile has the pieces of `damaged`, in their order
+};
+BuildingStructures build_structures(const BuildingSpec& building);
 
 }  // namespace rubble

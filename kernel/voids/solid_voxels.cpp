@@ -193,7 +193,7 @@ Solids place_solids(const PileState& pile, const std::vector<const TriangleMesh*
     }
     add_solid(*meshes[type], state.world_from_body, state.scale, state.type, result);
   }
-  for (const FineHeap& heap : make_fine_heaps(pile.fines))
+  for (const FineHeap& heap : pile.fines.heaps())
     add_solid(heap.mesh, world_from_host(pile, heap.host), 1, kFineType, result);
   return result;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -217,6 +218,15 @@ bool is_consistent(const World::Snapshot& s) {
   return fine;
 }
 
+// How many types the world of a snapshot had, of those that the world has now. Each robot and surface that was added later
+// has pieces of types of its own, so those of the snapshot end with the last one that a piece of it has.
+std::size_t count_types(const WorldData& data, const WorldTypes& types) {
+  if (data.robots.size() >= types.robots.size()) return types.pieces.size();
+  std::size_t count = std::size_t(types.placeable);
+  for (const Body& body : data.bodies) count = std::max(count, std::size_t(body.type) + 1);
+  return std::min(count, types.pieces.size());
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encode_snapshot(const World::Snapshot& snapshot) {
@@ -265,10 +275,20 @@ std::shared_ptr<const World::Snapshot> World::snapshot() const {
 
 void World::restore(const Snapshot& snapshot) {
   Impl& w = *impl_;
-  if (snapshot.types != hash_types(w.types.pieces, w.types.assemblies)) {
+  std::vector<PieceType>& types = w.types.pieces;
+  const auto end = types.begin() + std::ptrdiff_t(count_types(snapshot.data, w.types));
+  std::vector<PieceType> later(std::make_move_iterator(end), std::make_move_iterator(types.end()));
+  types.erase(end, types.end());
+  if (snapshot.types != hash_types(types, w.types.assemblies)) {
+    std::move(later.begin(), later.end(), std::back_inserter(types));
     throw RunError("a snapshot can only be restored into a world with the same types of pieces");
   }
   w.data = snapshot.data;
+  if (!later.empty()) {
+    w.types.shapes.resize(types.size());
+    w.types.robots.resize(w.data.robots.size());
+    w.types.grown_robots.resize(w.data.robots.size());
+  }
   for (Body& body : w.data.bodies) body.shape = &w.types.shapes[body.type];
   w.pairs.list_surfaces();
   w.simbody_trees = SimbodyTrees();

@@ -1,4 +1,5 @@
-// A world's snapshot as bytes, and back: what is decoded continues bit for bit as the original.
+// A world's snapshot as bytes, and back: what is decoded continues bit for bit as the original. World::restore() removes the
+// robots and surfaces that the world has got since.
 //
 // Little-endian, no padding: u32 format version, then each member in the order of world_serialization.h;
 // a list is a u64 count and its elements. There is no checksum: io/checkpoint_file adds one.

@@ -111,6 +111,14 @@ def _pose(data):
     return stamp, (x, y, z, qw, qx, qy, qz)
 
 
+def _odometry(data):
+    wire = _Wire(data)
+    stamp, _ = wire.header()
+    wire.text()
+    x, y, z, qx, qy, qz, qw = wire.take("7d")
+    return stamp, (x, y, z, qw, qx, qy, qz)
+
+
 def _mistake(file, key, message, expected):
     parts = [part for part in (file, key, message) if part]
     error = _core.InputError(": ".join(parts) + ": expected " + expected)
@@ -173,9 +181,16 @@ class Dataset:
         files = sorted(os.listdir(folder)) if os.path.isdir(folder) else []
         return ", ".join(os.path.splitext(file)[0] for file in files) or "nothing: no sensors were recorded"
 
-    def poses(self, topic: str = "/ground_truth/pose") -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-        """(stamps, (n, 7) array): where the rig truly was."""
-        stamps, rows = self._messages(topic, _pose)
+    def poses(self, topic: str | None = None) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        """(stamps, (n, 7) array): where the rig truly was; of a camera on a robot "/NAME/ground_truth/pose", which need not be
+        given where there is no other; of a robot "/ground_truth/odom"."""
+        if topic is None:
+            found = sorted(t for t in self.topics if t.endswith("/ground_truth/pose"))
+            if "/ground_truth/pose" not in found and len(found) > 1:
+                raise _mistake(self.bag, "topic", "no camera is on the rig, and several are on robots",
+                               "one of " + ", ".join(found))
+            topic = "/ground_truth/pose" if "/ground_truth/pose" in found or not found else found[0]
+        stamps, rows = self._messages(topic, _odometry if topic.endswith("/odom") else _pose)
         return stamps, np.array(rows)
 
     def intrinsics(self, topic: str = "/camera/rgb/camera_info") -> dict[str, Any]:

@@ -17,10 +17,11 @@ class Renderer:
         self._made = _core._Renderer(pile._shared, threads or pile.threads)
 
     def render(self, pose: ArrayLike, width: int = 640, height: int = 480,
-               fov_deg: float = 90.0, number: int = 0) -> dict[str, NDArray[Any]]:
+               fov_deg: float = 90.0, number: int = 0, shift: tuple[float, float] = (0.0, 0.0)) -> dict[str, NDArray[Any]]:
         """dict of rgb (h, w, 3) uint8, depth (h, w) float32 along the optical axis (nan: nothing), K (3, 3). Pictures
-        of other numbers have other noise, which hides the steps of 8 bits."""
-        return self._made.render(pose, width, height, fov_deg, number)
+        of other numbers have other noise, which hides the steps of 8 bits. shift: of the principal point from the middle, to
+        the right and downwards; pixel."""
+        return self._made.render(pose, width, height, fov_deg, number, shift)
 
 
 class DepthCamera:

@@ -8,7 +8,7 @@
 namespace rubble {
 namespace {
 
-constexpr std::size_t kRays = LidarWorld::kPacket;
+constexpr std::size_t kRays = RayWorld::kPacket;
 constexpr double kNoOverlap = 0.9, kFullOverlap = 1.0;  // of transmitter and receiver; unit: m
 constexpr double kStrengthNoise = 0.1;                  // standard deviation, as a share
 constexpr int kAirSteps = 48;
@@ -48,9 +48,9 @@ struct Beam::Parts {
   void add(double range, double energy) { list[std::size_t(count++)] = {range, energy}; }
 };
 
-void Beam::add_surfaces(const LidarWorld::Ray& axis, const Air& air, Parts& parts) const {
-  std::array<LidarWorld::Ray, kRays> rays;
-  std::array<LidarWorld::Hit, kRays> hits;
+void Beam::add_surfaces(const RayWorld::Ray& axis, const Air& air, Parts& parts) const {
+  std::array<RayWorld::Ray, kRays> rays;
+  std::array<RayWorld::Hit, kRays> hits;
   rays.fill(axis);
   const std::size_t count = spec_.divergence_mrad > 0 ? kRays : 1;
   const double deviation = 0.25e-3 * spec_.divergence_mrad;  // unit: rad
@@ -64,7 +64,7 @@ void Beam::add_surfaces(const LidarWorld::Ray& axis, const Air& air, Parts& part
   parts.nearest = spec_.max_range;
   const bool clear = air.clear();
   for (std::size_t i = 0; i < count; ++i) {
-    const LidarWorld::Hit& hit = hits[i];
+    const RayWorld::Hit& hit = hits[i];
     if (hit.distance <= 0) continue;
     double light = double(hit.reflectance) * double(hit.cosine) / double(count);
     if (!clear) light *= std::exp(-2 * air.optical_depth(axis.from, rays[i].direction, hit.distance));
@@ -75,7 +75,7 @@ void Beam::add_surfaces(const LidarWorld::Ray& axis, const Air& air, Parts& part
 
 // The first step is that in which transmitter and receiver come to overlap; those after it grow with range,
 // as what comes back falls with its square.
-void Beam::add_air(const LidarWorld::Ray& axis, const Air& air, double random, Parts& parts) const {
+void Beam::add_air(const RayWorld::Ray& axis, const Air& air, double random, Parts& parts) const {
   const double last = parts.nearest, second = std::min(kFullOverlap, last);
   if (last <= kNoOverlap) return;
   std::array<double, kAirSteps + 1> edge{}, sum{};
@@ -160,7 +160,7 @@ double Beam::round_range(double range, double normal) const {
   return std::clamp(range, spec_.min_range, spec_.max_range);
 }
 
-Echoes Beam::measure(const LidarWorld::Ray& axis, const Air& air, const NoiseField& noise,
+Echoes Beam::measure(const RayWorld::Ray& axis, const Air& air, const NoiseField& noise,
                      std::uint64_t ray) const {
   Parts parts;
   add_surfaces(axis, air, parts);

@@ -23,8 +23,8 @@
 
 #include <array>
 
-#include "render/lidar/lidar_world.h"
 #include "render/media/medium.h"
+#include "render/rays/ray_world.h"
 #include "render/scene/lidar_spec.h"
 #include "render/sensors/noise_field.h"
 
@@ -45,23 +45,23 @@ struct Echoes {
 class Beam {
  public:
   // The world must outlive it.
-  Beam(const LidarSpec& spec, const LidarWorld& world) : spec_(spec), world_(world) {}
+  Beam(const LidarSpec& spec, const RayWorld& world) : spec_(spec), world_(world) {}
 
   // noise: of this scan; ray: its number in the scan.
-  Echoes measure(const LidarWorld::Ray& axis, const Air& air, const NoiseField& noise,
+  Echoes measure(const RayWorld::Ray& axis, const Air& air, const NoiseField& noise,
                  std::uint64_t ray) const;
 
  private:
   struct Parts;
-  void add_surfaces(const LidarWorld::Ray& axis, const Air& air, Parts& parts) const;
-  void add_air(const LidarWorld::Ray& axis, const Air& air, double random, Parts& parts) const;
+  void add_surfaces(const RayWorld::Ray& axis, const Air& air, Parts& parts) const;
+  void add_air(const RayWorld::Ray& axis, const Air& air, double random, Parts& parts) const;
   // Those that are strong enough and within reach, the nearest first.
   int merge(Parts& parts, const NoiseField& noise, std::uint64_t ray, std::array<Echo, 9>& found) const;
   Echoes choose(const std::array<Echo, 9>& found, int count) const;
   double round_range(double range, double normal) const;
 
   const LidarSpec& spec_;
-  const LidarWorld& world_;
+  const RayWorld& world_;
 };
 
 }  // namespace rubble

@@ -27,30 +27,30 @@ struct Lidar::Slice {
   NoiseField noise;
 };
 
-Lidar::Lidar(const LidarSpec& spec, std::shared_ptr<LidarWorld> world, LidarPlace place,
+Lidar::Lidar(const LidarSpec& spec, std::shared_ptr<RayWorld> world, LidarPlace place,
              const Medium& medium, std::uint64_t seed, int threads)
-    : spec_(spec),
+    : spec_(std::make_shared<const LidarSpec>(spec)),
       world_(std::move(world)),
       place_(std::move(place)),
       medium_(medium),
       seed_(seed),
-      pattern_(spec_),
+      pattern_(*spec_),
       pool_(threads) {}
 
 std::vector<Pose> Lidar::poses_of(std::int64_t stamp_ns, std::int64_t duration_ns) {
   // As far as the scan's own list of poses goes.
-  constexpr std::int64_t kStep = LidarScan::kMotionStep;
+  constexpr std::int64_t kStep = RangeScan::kMotionStep;
   std::vector<Pose> poses(std::size_t((duration_ns / kStep + 1) * kStep / kKnot + 1));
   pool_.run(int(poses.size()), kGrain, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) poses[std::size_t(i)] = place_.world_from_lidar(stamp_ns + i * kKnot);
+    for (int i = begin; i < end; ++i) poses[std::size_t(i)] = place_.world_from_sensor(stamp_ns + i * kKnot);
   });
   return poses;
 }
 
 // Two slots of `found` a ray.
-void Lidar::measure(const Slice& slice, std::size_t begin, std::size_t end, std::vector<LidarPoint>& found,
+void Lidar::measure(const Slice& slice, std::size_t begin, std::size_t end, std::vector<ScanPoint>& found,
                     std::vector<std::uint8_t>& counts) const {
-  const Beam beam(spec_, *world_);
+  const Beam beam(*spec_, *world_);
   for (std::size_t i = begin; i < end; ++i) {
     const PatternRay& ray = slice.rays[i];
     const auto knot = std::size_t(ray.offset_ns / kKnot);
@@ -69,16 +69,17 @@ void Lidar::measure(const Slice& slice, std::size_t begin, std::size_t end, std:
   }
 }
 
-LidarScan Lidar::take(int scan) {
-  LidarScan out;
+RangeScan Lidar::take(int scan) {
+  RangeScan out;
+  out.spec = spec_;
   out.index = scan;
   out.stamp_ns = stamp_ns(scan);
   const std::vector<PatternRay>& rays = pattern_.rays(scan);
   const std::int64_t duration = rays.back().offset_ns;
   const std::vector<Pose> poses = poses_of(out.stamp_ns, duration);
-  for (std::size_t i = 0; i < poses.size(); i += std::size_t(LidarScan::kMotionStep / kKnot))
-    out.world_from_lidar.push_back(poses[i]);
-  std::vector<LidarPoint> found(2 * rays.size());
+  for (std::size_t i = 0; i < poses.size(); i += std::size_t(RangeScan::kMotionStep / kKnot))
+    out.world_from_sensor.push_back(poses[i]);
+  std::vector<ScanPoint> found(2 * rays.size());
   std::vector<std::uint8_t> counts(rays.size());
   const bool still = !world_->moves() && medium_.homogeneous();
   const std::int64_t length = still ? duration + 1 : kSceneStep;

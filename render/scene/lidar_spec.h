@@ -1,5 +1,5 @@
 // A LiDAR as plain data: where its rays go and when, what it can tell apart, and how it errs. The
-// figures of real ones: scripting/scenario/lidar_models.h.
+// figures of real ones: scripting/sensors/lidar_models.cpp.
 #pragma once
 
 #include <cstdint>
@@ -42,6 +42,7 @@ struct LidarSpec {
 
   int rings() const { return int(elevations_deg.size()); }
   int rays() const { return rings() * columns; }       // of a scan
+  bool planar() const { return pattern == LidarPattern::planar; }
   // Whether the number of its column and ring alone tells where a ray goes, rings at even distances.
   bool regular = true;
 };

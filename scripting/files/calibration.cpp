@@ -171,7 +171,7 @@ class CalibrationReader : private CalibrationValues {
   void read_ouster() {
     result_.format = "Ouster metadata";
     OusterMetadata metadata = read_ouster_metadata(root_, path());
-    result_.keys.set("lidar", std::move(metadata.lidar));
+    result_.keys.set(metadata.kind, std::move(metadata.keys));
     result_.notes = std::move(metadata.notes);
   }
 

@@ -1,4 +1,4 @@
-// Calibrations of real cameras and LiDARs, as keys of a mission.
+// Calibrations of real sensors, as keys of a mission.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace rubble {
 struct SensorCalibration {
   std::string format;  // "Kalibr camchain", "OpenCV", "ROS camera_info", "ORB-SLAM settings", "Ouster metadata"
   // "camera": the keys of a `camera`; of a chain of several, "cameras": by their names, with position and
-  // rpy_deg in the rig, whose origin is the first camera. Of Ouster metadata "lidar": the keys of a `lidar`.
+  // rpy_deg in the rig, whose origin is the first camera. Of Ouster metadata the keys of its kind.
   Value keys;
   std::vector<std::string> notes;  // what is left out
 };
@@ -24,7 +24,7 @@ struct SensorCalibration {
 //   ROS camera_info: the same with distortion_model plumb_bob or equidistant, or width, height, K, D as
 //     `rostopic echo` prints them
 //   ORB-SLAM2 and 3: Camera.fx or Camera1.fx, ...
-//   Ouster sensors' metadata, old and new: product, lidar_mode
+//   Ouster sensors' metadata, old and new: product, mode
 // Throws InputError with `path` and the key: a model of lenses that is not simulated, by its name; a
 // size, matrix or mode that is missing or has another form.
 SensorCalibration parse_calibration(std::string_view text, const std::string& path);

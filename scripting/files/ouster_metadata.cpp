@@ -39,7 +39,7 @@ class OusterReader : private CalibrationValues {
     const Value* in = root_.find(section);
     return in ? in->find(name) : nullptr;
   }
-  void set(const char* name, Value value) { out_.lidar.set(name, std::move(value)); }
+  void set(const char* name, Value value) { out_.keys.set(name, std::move(value)); }
   void note(std::string text) { out_.notes.push_back(std::move(text)); }
 
   // "OS-1-64", "OS1-64"
@@ -170,7 +170,7 @@ class OusterReader : private CalibrationValues {
 
   const Value& root_;
   std::size_t rings_ = 0;  // of the product's name; 0: it does not say
-  OusterMetadata out_{Value::make_table(), {}};
+  OusterMetadata out_{Value::make_table(), {}, "lidar"};
 };
 
 }  // namespace

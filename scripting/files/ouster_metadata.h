@@ -9,8 +9,9 @@
 namespace rubble {
 
 struct OusterMetadata {
-  Value lidar;                     // model, columns, rate and the sensor's own beams
+  Value keys;                      // model, columns, rate and the sensor's own beams
   std::vector<std::string> notes;  // what is left out
+  std::string kind;                // of the sensor: "lidar"
 };
 
 // Keys at the top of the file (firmware 1 and 2), or in sections such as `beam_intrinsics` (firmware 3). Throws

@@ -153,8 +153,8 @@ Json alias_schema(const Schema& schema, const Alias& alias) {
 }  // namespace
 
 std::vector<std::string> mission_keys() {
-  Scenario scenario;
-  const Schema schema = make_scenario_schema(scenario);
+  MissionForm form;
+  const Schema schema = make_scenario_schema(form);
   std::vector<std::string> keys;
   for (const Key& key : schema.keys())
     if (key.kind == KeyKind::value && key.path.find("[]") == std::string::npos)
@@ -164,8 +164,8 @@ std::vector<std::string> mission_keys() {
 }
 
 std::string mission_json_schema() {
-  Scenario scenario;
-  const Schema schema = make_scenario_schema(scenario);
+  MissionForm form;
+  const Schema schema = make_scenario_schema(form);
   Json json = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                {"title", "Rubble mission"}};
   json.update(object_schema(schema, ""));

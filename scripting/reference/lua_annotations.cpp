@@ -101,8 +101,8 @@ std::string annotate(const DescribedFunction& function) {
 }  // namespace
 
 std::string lua_annotations() {
-  Scenario scenario;
-  const Schema mission = make_scenario_schema(scenario);
+  MissionForm form;
+  const Schema mission = make_scenario_schema(form);
   PackTable pack_table;
   const Schema pack = make_pack_schema(pack_table);
   std::string text =

@@ -38,7 +38,7 @@ std::string cell(std::string text) {
   return text;
 }
 
-// Texts name pages as the tree does: "docs/reference/lidar.md". The reference links to them.
+// Texts name pages as the tree does: "docs/reference/robots.md". The reference links to them.
 std::string linked(const std::string& text) {
   static const std::string kFolder = "docs/", kEnding = ".md";
   std::string out;
@@ -295,8 +295,8 @@ std::string alias_table(const Schema& schema) {
 }  // namespace
 
 std::string lua_reference() {
-  Scenario scenario;
-  const Schema mission = make_scenario_schema(scenario);
+  MissionForm form;
+  const Schema mission = make_scenario_schema(form);
   PackTable pack_table;
   const Schema pack = make_pack_schema(pack_table);
   return "\n## Keys of a mission\n\n" + section(mission, "", "") + alias_table(mission) + library_reference() +

@@ -155,7 +155,7 @@ int read_image_file(lua_State* lua) {
   return 1;
 }
 
-// read_calibration(file) -> { format =, notes =, camera =, cameras =, lidar = }
+// read_calibration(file) -> { format =, notes =, and the keys of sensors by their kinds }
 int read_calibration_file(lua_State* lua) {
   const std::string name = luaL_checkstring(lua, 1);
   SensorCalibration read;

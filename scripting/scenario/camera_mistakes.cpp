@@ -7,7 +7,6 @@
 
 #include "kernel/base/portable_math.h"
 #include "render/streams/image_streams.h"
-#include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/optics_schema.h"
 #include "scripting/scenario/scenario_schema.h"
 #include "scripting/schema/schema_json.h"
@@ -42,9 +41,8 @@ bool fisheye_grows(const CameraScenario& camera) {
   return true;
 }
 
-// at: what its keys begin with; beside: those of what is in its place, "" or "cameras.front."
-void check_camera(const MountedCamera& camera, const std::string& at, const std::string& beside,
-                  std::vector<Diagnostic>& mistakes) {
+void check_camera(const MountedCamera& camera, std::vector<Diagnostic>& mistakes) {
+  const std::string at = camera.key() + ".", beside = camera.named ? at : "";  // of what is in its place
   const CameraScenario& c = camera.camera;
   check_channels(c, at, mistakes);
   const auto add = [&](const std::string& key, const std::string& message,
@@ -74,20 +72,9 @@ void check_camera(const MountedCamera& camera, const std::string& at, const std:
         "more than " + beside + "depth_sensor.min_range", "");
 }
 
-// One renderer draws for all cameras.
-void check_colour(const ColourSpec& colour, const MountedCamera& first, const std::string& at,
-                  std::vector<Diagnostic>& mistakes) {
-  const ColourSpec& other = first.camera.colour;
-  if (colour.quality == other.quality && colour.samples == other.samples &&
-      colour.denoise == other.denoise)
-    return;
-  mistakes.push_back({"", 0, at + ".quality", "differs from the quality of another camera",
-                      "quality, samples and denoise as `cameras." + first.name + "` has them", "", ""});
-}
-
 // The first of the short form's keys that does not have its default; empty: none.
-std::string find_key_of_one_camera(const Scenario& scenario) {
-  Scenario given = scenario, usual;
+std::string find_key_of_one_camera(const MissionForm& form) {
+  MissionForm given = form, usual;
   const Schema is = make_scenario_schema(given), was = make_scenario_schema(usual);
   for (const Key& key : is.keys()) {
     const std::string group = key.path.substr(0, key.path.find('.'));
@@ -103,6 +90,14 @@ bool is_name(const std::string& text) {
   const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
   return !text.empty() && text.size() <= 32 && text[0] >= 'a' && text[0] <= 'z' &&
          std::all_of(text.begin(), text.end(), plain);
+}
+
+// at: the key of a sensor, such as "imus.head"; what: "an inertial unit".
+bool check_name(const std::string& name, const std::string& at, const std::string& what, std::vector<Diagnostic>& mistakes) {
+  if (is_name(name)) return true;
+  mistakes.push_back({"", 0, at, "not a name of " + what,
+                      "a lower-case letter, then such letters, digits and underscores, 32 at most", "\"" + name + "\"", ""});
+  return false;
 }
 
 // A name of ROS 1 and ROS 2 with a slash before each word; without any of TF.
@@ -171,7 +166,7 @@ class SensorNames {
 // Topics or frames of robots, which no sensor may have.
 void reserve_robot_names(const Scenario& scenario, bool topics, SensorNames& names) {
   const std::vector<std::string> robots = robot_names(scenario.robots);
-  if (!topics && !robots.empty() && !scenario.cameras.empty()) names.reserve("rig_link", "the rig");
+  if (!topics && !robots.empty() && scenario.names_cameras()) names.reserve("rig_link", "the rig");
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const std::string owner = "robots[" + std::to_string(i + 1) + "]";
     const std::string prefix = robots.size() > 1 ? robots[i] + "/" : "";
@@ -185,42 +180,20 @@ void reserve_robot_names(const Scenario& scenario, bool topics, SensorNames& nam
 void check_labels(const Scenario& scenario, SensorNames& names) {
   if (!scenario.outputs.rawlog) return;
   for (const char* label : {"ground_truth", "ground_truth_depth"}) names.label("the rig", label);
-  for (const MountedCamera& camera : all_cameras(scenario)) {
-    const std::string at = scenario.cameras.empty() ? "camera" : "cameras." + camera.name;
+  for (const MountedCamera& camera : scenario.cameras) {
+    const std::string at = camera.key();
     names.label(at, camera.name);
     if (camera.camera.stereo_baseline > 0) names.label(at, camera.name + "_right");
     if (camera.ride.on()) names.label(at, camera.name + "_ground_truth");
     if (camera.depth_sensor.type != DepthSensorType::none && scenario.cameras.size() > 1)
       names.label(at, camera.name + "_ground_truth_depth");
   }
-  for (const ImuScenario& imu : all_imus(scenario)) names.label(scenario.imus.empty() ? "imu" : "imus." + imu.name, imu.name);
-  for (const LidarScenario& lidar : scenario.lidars) names.label("lidars." + lidar.name, lidar.name);
+  for (const ImuScenario& imu : scenario.imus) names.label(imu.key(), imu.name);
   for (const SensorItem& sensor : scenario.sensors) names.label(sensor.key(), sensor.name);
   const std::vector<std::string> robots = robot_names(scenario.robots);
   for (std::size_t i = 0; i < robots.size(); ++i)
     for (const char* what : {"_odometry", "_ground_truth"})
       names.label("robots[" + std::to_string(i + 1) + "].name", robots[i] + what);
-}
-
-void check_imu_names(const Scenario& scenario, SensorNames& names, std::vector<Diagnostic>& mistakes) {
-  if (scenario.imus.empty()) {
-    names.check("imu.topic", scenario.imu.topic.value_or("/imu"), true);
-    names.check("imu.frame_id", scenario.imu.frame_id, false);
-    if (scenario.imu.on && !scenario.imu.frame_id && !scenario.imu.is_rig()) names.check("imu", "imu_link", false);
-  }
-  if (scenario.imu.on && !scenario.imus.empty())
-    mistakes.push_back({"", 0, "imu.on", "contradicts imus", "one of both", "both", ""});
-  for (const ImuScenario& imu : scenario.imus) {
-    const std::string at = "imus." + imu.name;
-    if (!is_name(imu.name)) {
-      mistakes.push_back({"", 0, at, "not a name of an inertial unit",
-                          "a lower-case letter, then such letters, digits and underscores, 32 at most",
-                          "\"" + imu.name + "\"", ""});
-      continue;
-    }
-    names.check(imu.topic ? at + ".topic" : at, imu.topic.value_or("/" + imu.name), true);
-    names.check(imu.frame_id ? at + ".frame_id" : at, imu.frame_id.value_or(imu.name + "_link"), false);
-  }
 }
 
 // Of all topics and frames.
@@ -229,63 +202,50 @@ void check_all_names(const Scenario& scenario, SensorNames& names, std::vector<D
   names.reserve_below("/ground_truth", "ground truth");
   for (const char* taken : {"world", "base_link"}) names.check(taken, taken, false);
   reserve_robot_names(scenario, false, names);
-  for (const MountedCamera& camera : all_cameras(scenario)) {
-    const std::string at = scenario.cameras.empty() ? "camera" : "cameras." + camera.name;
+  for (const MountedCamera& camera : scenario.cameras) {
+    const std::string at = camera.key(), topic = camera.topic();
     const std::string& name = camera.name;
     if (!is_name(name)) continue;
-    names.check(camera.camera.topic ? at + ".topic" : at, camera.camera.topic.value_or("/" + name), true);
-    names.check(camera.camera.frame_id ? at + ".frame_id" : at,
-                camera.camera.frame_id.value_or(name + "_optical_frame"), false);
+    names.check(camera.camera.topic ? at + ".topic" : at, topic, true);
+    names.check(camera.camera.frame_id ? at + ".frame_id" : at, camera.frame_id(), false);
     names.check(at, name + "_link", false);
     if (camera.camera.stereo_baseline > 0) names.check(at, name + "_right_optical_frame", false);
-    const std::string topic = camera.camera.topic.value_or("/" + name);
     for (const char* below : {"/rgb", "/depth_registered", "/right", "/ground_truth"}) names.reserve_below(topic + below, at);
     names.reserve(topic + "/events", at);
   }
   reserve_robot_names(scenario, true, names);  // a camera's topics lie below its own: no clash with these
-  check_imu_names(scenario, names, mistakes);
-  for (std::size_t i = 0; i < scenario.lidars.size(); ++i) {
-    const LidarScenario& lidar = scenario.lidars[i];
-    const std::string at = "lidars." + lidar.name;
-    if (!is_name(lidar.name)) {
-      mistakes.push_back({"", 0, at, "not a name of a LiDAR",
-                          "a lower-case letter, then such letters, digits and underscores, 32 at most",
-                          "\"" + lidar.name + "\"", ""});
-      continue;
-    }
-    names.check(lidar.topic ? at + ".topic" : at, lidar_topic(scenario, i), true);
-    names.check(lidar.frame_id ? at + ".frame_id" : at, lidar.frame_id.value_or(lidar.name + "_link"), false);
+  for (const ImuScenario& imu : scenario.imus) {
+    const std::string at = imu.key();
+    if (!check_name(imu.name, at, "an inertial unit", mistakes)) continue;
+    names.check(imu.topic ? at + ".topic" : at, imu.ros_topic(), true);
+    // Without a name or a pose of its own, it has the frame of its carrier.
+    if (!imu.named && !imu.frame_id && imu.is_rig()) continue;
+    names.check(imu.frame_id ? at + ".frame_id" : at, imu.frame_id.value_or(imu.name + "_link"), false);
   }
   for (const SensorItem& sensor : scenario.sensors) {
-    if (!is_name(sensor.name)) {
-      mistakes.push_back({"", 0, sensor.key(), "not a name of a sensor",
-                          "a lower-case letter, then such letters, digits and underscores, 32 at most",
-                          "\"" + sensor.name + "\"", ""});
-      continue;
-    }
-    names.check(sensor.topic ? sensor.key() + ".topic" : sensor.key(), sensor.ros_topic(), true);
+    if (!check_name(sensor.name, sensor.key(), "a sensor", mistakes)) continue;
+    const std::string topic = topic_of(scenario.sensors, sensor);
+    names.check(sensor.topic ? sensor.key() + ".topic" : sensor.key(), topic, true);
     names.check(sensor.frame_id ? sensor.key() + ".frame_id" : sensor.key(), sensor.frame(), false);
-    if (sensor.figures->topics().size() > 1) names.reserve_below(sensor.ros_topic(), sensor.key());
+    if (sensor.figures->topics().size() > 1) names.reserve_below(topic, sensor.key());
   }
 }
 
 }  // namespace
 
 void check_cameras(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
-  if (scenario.cameras.empty())
-    return check_camera(all_cameras(scenario).front(), "camera.", "", mistakes);
-  if (const std::string key = find_key_of_one_camera(scenario); !key.empty())
+  for (const MountedCamera& camera : scenario.cameras) {
+    check_name(camera.name, camera.key(), "a camera", mistakes);
+    check_camera(camera, mistakes);
+  }
+}
+
+void check_forms(const MissionForm& form, std::vector<Diagnostic>& mistakes) {
+  if (const std::string key = find_key_of_one_camera(form); !form.rest.cameras.empty() && !key.empty())
     mistakes.push_back({"", 0, key, "contradicts cameras", "the key in a table of `cameras`", "both",
                         "each of `cameras` has keys of its own"});
-  for (const MountedCamera& camera : scenario.cameras) {
-    const std::string at = "cameras." + camera.name;
-    if (!is_name(camera.name))
-      mistakes.push_back({"", 0, at, "not a name of a camera",
-                          "a lower-case letter, then such letters, digits and underscores, 32 at most",
-                          "\"" + camera.name + "\"", ""});
-    check_camera(camera, at + ".", at + ".", mistakes);
-    check_colour(camera.camera.colour, scenario.cameras.front(), at, mistakes);
-  }
+  if (form.imu_on && !form.rest.imus.empty())
+    mistakes.push_back({"", 0, "imu.on", "contradicts imus", "one of both", "both", ""});
 }
 
 void check_sensor_names(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {

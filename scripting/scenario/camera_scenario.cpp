@@ -37,23 +37,8 @@ bool CameraScenario::has_channel(const std::string& name) const {
 Pose MountedCamera::rig_from_camera() const { return pose_of(position, rpy_deg); }
 Pose ImuScenario::rig_from_imu() const { return pose_of(position, rpy_deg); }
 
-std::vector<MountedCamera> all_cameras(const Scenario& scenario) {
-  if (!scenario.cameras.empty()) return scenario.cameras;
-  MountedCamera only;
-  only.camera = scenario.camera;
-  only.depth_sensor = scenario.depth_sensor;
-  only.event_camera = scenario.event_camera;
-  return {only};
-}
-
-std::vector<ImuScenario> all_imus(const Scenario& scenario) {
-  if (!scenario.imus.empty() || !scenario.imu.on) return scenario.imus;
-  return {scenario.imu};
-}
-
 bool has_channel(const Scenario& scenario, const std::string& name) {
-  const std::vector<MountedCamera> cameras = all_cameras(scenario);
-  return std::any_of(cameras.begin(), cameras.end(),
+  return std::any_of(scenario.cameras.begin(), scenario.cameras.end(),
                      [&](const MountedCamera& c) { return c.camera.has_channel(name); });
 }
 

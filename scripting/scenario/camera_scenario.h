@@ -1,5 +1,4 @@
-// The sensors of a mission as plain data: cameras and an inertial unit. camera_schema.cpp lists their
-// keys.
+// Cameras and inertial units of a mission as plain data. camera_schema.cpp lists the keys of cameras.
 #pragma once
 
 #include <optional>
@@ -37,11 +36,8 @@ struct CameraScenario {
   ExposureSpec exposure{};     // how bright the image is
   OpticsSpec optics{};         // what the lens does to the light
   ImageSensorSpec sensor{};    // noise, converter, response
-  // ROS: what its topics begin with; not given: "/camera", of one of `cameras` "/NAME".
-  std::optional<std::string> topic{};
-  // TF: the frame of its pictures (Z forward, X right, Y down); not given: "camera_optical_frame", of
-  // one of `cameras` "NAME_optical_frame".
-  std::optional<std::string> frame_id{};
+  std::optional<std::string> topic{};     // ROS: what its topics begin with; not given: "/NAME"
+  std::optional<std::string> frame_id{};  // TF: of its pictures (Z forward); not given: "NAME_optical_frame"
 
   // fx = fy = (width / 2) / r(fov / 2), where r is tan for a pinhole and for plumb_bob, whose
   // distortion is left out of account, and the lens's own curve for a fisheye; the principal point is
@@ -53,9 +49,11 @@ struct CameraScenario {
   bool has_channel(const std::string& name) const;  // whether `channels` names it
 };
 
-// One of several cameras on the rig that flies the trajectory, or on a link of a robot.
+// A camera on the rig that flies the trajectory, or on a link of a robot.
 struct MountedCamera {
   std::string name = "camera";  // lower-case letters, digits and underscores
+  // One of the table `cameras`; false: the `camera` of a mission, which is the rig itself, and whose name is in no file.
+  bool named = false;
   Carrier ride{};               // what carries it instead of the rig
   Vec3 position;                // of its body in the rig (X forward, Y left, Z up), or the link; unit: m
   Vec3 rpy_deg;                 // of its body, likewise; unit: degree
@@ -64,6 +62,11 @@ struct MountedCamera {
   DepthSensorSpec depth_sensor{};     // in its place
   EventCameraSpec event_camera{};     // in its place
 
+  std::string key() const { return named ? "cameras." + name : name; }  // in the mission
+  // Of files that hold one camera, where `run` is that of the run.
+  std::string folder_in(const std::string& run) const { return named ? run + "/cameras/" + name : run; }
+  std::string topic() const { return camera.topic.value_or("/" + name); }
+  std::string frame_id() const { return camera.frame_id.value_or(name + "_optical_frame"); }
   bool is_rig() const { return position == Vec3() && rpy_deg == Vec3(); }
   Pose rig_from_camera() const;
 };
@@ -71,17 +74,19 @@ struct MountedCamera {
 // What CameraScenario::channels may name.
 std::vector<std::string> channel_names();
 
-// An inertial unit on the rig: of a single camera, in its body; or on a link of a robot.
+// An inertial unit on the rig, or on a link of a robot.
 struct ImuScenario {
-  std::string name = "imu";  // of one of several
-  bool on = false;  // false: not simulated; of one of several without effect
-  Carrier ride{};   // what carries it instead of the rig
+  std::string name = "imu";
+  bool named = false;  // one of the table `imus`; false: the `imu` of a mission
+  Carrier ride{};      // what carries it instead of the rig
   ImuModel model;   // rate, noise and biases
   Vec3 position;    // in the rig or the link (X forward, Y left, Z up); unit: m; range: -10 to 10
   Vec3 rpy_deg;     // of its axes, likewise; unit: degree
   std::optional<std::string> topic{};     // ROS; not given: "/NAME"
   std::optional<std::string> frame_id{};  // TF; not given: the carrier's where it is there, else "NAME_link"
 
+  std::string key() const { return named ? "imus." + name : name; }  // in the mission
+  std::string ros_topic() const { return topic.value_or("/" + name); }
   bool is_rig() const { return position == Vec3() && rpy_deg == Vec3(); }
   Pose rig_from_imu() const;
 };

@@ -235,21 +235,21 @@ Schema mounted_camera_schema(MountedCamera& m) {
 
 }  // namespace
 
-void add_camera_keys(Schema& keys, Scenario& s) {
+void add_camera_keys(Schema& keys, MissionForm& form) {
   keys.group("camera",
           "The camera. Colour and depth have the same pixels. The default is an exact pinhole camera.");
-  add_camera_with(keys, "camera.", s.camera);
+  add_camera_with(keys, "camera.", form.camera.camera);
   keys.add("cameras",
            "Several cameras instead of `camera`: `cameras = { front = { ... }, left = { ... } }`. Names have "
            "lower-case letters, digits and underscores. A camera is fixed to the rig, which flies the trajectory and "
            "has the lamp, or to a link of a robot (`ride`), with a lamp of its own. Each camera has the keys below, "
            "every key of `camera`, and its own `depth_sensor` and `event_camera`.",
-           [&s](std::size_t) {
-             return Schema::named_tables(s.cameras, &MountedCamera::name, "front",
+           [&form](std::size_t) {
+             return Schema::named_tables(form.rest.cameras, &MountedCamera::name, "front",
                                          mounted_camera_schema);
            });
-  add_depth_sensor(keys, s.depth_sensor);
-  add_event_camera(keys, s.event_camera);
+  add_depth_sensor(keys, form.camera.depth_sensor);
+  add_event_camera(keys, form.camera.event_camera);
 }
 
 }  // namespace rubble

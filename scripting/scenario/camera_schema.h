@@ -1,12 +1,12 @@
 // The keys of the camera and its sensors.
 #pragma once
 
-#include "scripting/scenario/scenario.h"
+#include "scripting/scenario/mission_form.h"
 #include "scripting/schema/schema.h"
 
 namespace rubble {
 
-// The scenario must outlive the schema.
-void add_camera_keys(Schema& keys, Scenario& scenario);
+// The form must outlive the schema.
+void add_camera_keys(Schema& keys, MissionForm& form);
 
 }  // namespace rubble

@@ -4,9 +4,9 @@
 
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
+#include "scripting/robots/robot_kind.h"
 #include "scripting/scenario/camera_mistakes.h"
 #include "scripting/scenario/pile_schema.h"
-#include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/scenario_schema.h"
 #include "scripting/scenario/sky_schema.h"
 #include "scripting/scenario/surroundings_schema.h"
@@ -111,12 +111,54 @@ void check_meshes(const OutputScenario& outputs, std::vector<Diagnostic>& mistak
   }
 }
 
+// KITTI's pictures are rectified, and each has a scan.
+void check_kitti_odometry(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  for (const MountedCamera& camera : scenario.cameras) {
+    const Intrinsics k = camera.camera.intrinsics();
+    const std::string at = camera.key();
+    if (k.lens == LensModel::fisheye || k.distortion != std::array<double, 5>{})
+      mistakes.push_back({"", 0, at + ".lens", "outputs.kitti_odometry has no place for a distorted lens",
+                          "a pinhole without distortion", "a lens with distortion", ""});
+    const double rate = camera.rate_hz.value_or(scenario.trajectory.rate_hz);
+    for (const SensorItem& sensor : scenario.sensors) {
+      const auto spec = sensor.figures->scan_spec();
+      if (!spec || spec->planar()) continue;
+      if (sensor.rate() != rate)
+        mistakes.push_back({"", 0, sensor.key() + ".rate_hz",
+                            "outputs.kitti_odometry has one scan for each picture", format_number(rate) + " Hz, the rate of " + at,
+                            format_number(sensor.rate()) + " Hz", ""});
+      break;  // the first one is recorded
+    }
+  }
+}
+
+void check_datasets(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  const OutputScenario& outputs = scenario.outputs;
+  const std::vector<MountedCamera>& cameras = scenario.cameras;
+  if (outputs.kitti_odometry) check_kitti_odometry(scenario, mistakes);
+  if (outputs.lerobot && scenario.record_settling.on)
+    mistakes.push_back({"", 0, "outputs.lerobot", "an episode has one rate", "no record_settling", "record_settling.on = true", ""});
+  const bool fisheye = cameras.front().camera.intrinsics().lens == LensModel::fisheye;
+  for (const MountedCamera& camera : cameras) {
+    const std::string at = camera.key();
+    if (outputs.coco && !camera.camera.has_channel("instance"))
+      mistakes.push_back({"", 0, at + ".channels", "outputs.coco needs the numbers of the pieces in the picture",
+                          "a list with `instance`", "no `instance`", ""});
+    if (outputs.nerfstudio && (camera.camera.intrinsics().lens == LensModel::fisheye) != fisheye)
+      mistakes.push_back({"", 0, at + ".lens.model", "outputs.nerfstudio has one lens model for all cameras",
+                          fisheye ? "fisheye, as the first camera" : "pinhole or plumb_bob, as the first camera",
+                          fisheye ? "another one" : "fisheye", ""});
+    if (outputs.lerobot && camera.rate_hz.value_or(scenario.trajectory.rate_hz) !=
+                               cameras.front().rate_hz.value_or(scenario.trajectory.rate_hz))
+      mistakes.push_back({"", 0, at + ".rate_hz", "outputs.lerobot has one rate for all cameras",
+                          format_number(cameras.front().rate_hz.value_or(scenario.trajectory.rate_hz)) + " Hz",
+                          format_number(camera.rate_hz.value_or(scenario.trajectory.rate_hz)) + " Hz", ""});
+  }
+}
+
 void check_rawlog(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   if (scenario.outputs.rawlog_format == RawlogFormat::observations) return;
-  const auto has_odometry = [](const RobotItem& robot) {
-    return robot.urdf.empty() ? robot.model == RobotKind::crawler || robot.model == RobotKind::rover
-                              : !robot.left_wheels.empty() || !robot.left_tracks.empty();
-  };
+  const auto has_odometry = [](const RobotItem& robot) { return kind_of(robot).has_sides(robot); };
   const auto count = std::count_if(scenario.robots.begin(), scenario.robots.end(), has_odometry);
   if (count == 1) return;
   mistakes.push_back({"", 0, "outputs.rawlog_format", "actions need one robot with odometry",
@@ -151,7 +193,7 @@ void check_stamps(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
 // What can be told before there is a pile.
 void check_smoothness(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   const TrajectorySpec spec = flown_trajectory(scenario);
-  if (scenario.imu.on && spec.smoothing && *spec.smoothing < kLeastSmoothing)
+  if (scenario.has_unit_on_rig() && spec.smoothing && *spec.smoothing < kLeastSmoothing)
     mistakes.push_back({"", 0, "trajectory.smoothing", "too small for an inertial measurement unit",
                         "at least " + format_number(kLeastSmoothing) + " s, or no such key",
                         format_number(*spec.smoothing) + " s",
@@ -164,24 +206,42 @@ void check_smoothness(const Scenario& scenario, std::vector<Diagnostic>& mistake
   }
 }
 
+// Files of scans need a sensor that scans.
+void check_scans(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  const OutputScenario& outputs = scenario.outputs;
+  std::string kinds;
+  for (const SensorKind* kind : sensor_kinds())
+    if (kind->most_points() > 0) kinds += (kinds.empty() ? "`" : " or `") + kind->key() + "`";
+  for (const auto& [key, wanted] : {std::pair{"outputs.pcd", outputs.pcd}, {"outputs.kitti", outputs.kitti}})
+    if (wanted && std::none_of(scenario.sensors.begin(), scenario.sensors.end(), scans))
+      mistakes.push_back({"", 0, key, "there is nothing to write", "a mission with " + kinds, "none", ""});
+}
+
 }  // namespace
 
 std::vector<std::string> export_names() { return {"ply", "obj", "glb", "sdf", "mjcf", "usd", "urdf"}; }
 
-std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
-  Scenario copy = scenario;  // a schema binds members that can be written
+std::vector<Diagnostic> find_mistakes(const Scenario& scenario) { return find_mistakes(MissionForm(scenario)); }
+
+std::vector<Diagnostic> find_mistakes(const MissionForm& form) {
+  MissionForm copy = form;  // a schema binds members that can be written
+  const Scenario scenario = form.normalized();
   std::vector<Diagnostic> mistakes = check_ranges(make_scenario_schema(copy));
   if (!mistakes.empty()) return mistakes;  // what follows relies on finite numbers
   check_names(scenario.pile, mistakes);
   check_mix(scenario.pile, mistakes);
   check_density(scenario.pile.spawn_density, mistakes);
   check_terrain(scenario.pile.terrain, mistakes);
-  check_sky(scenario.light, mistakes);
+  check_sky(scenario.lights.front(), mistakes);
+  check_forms(form, mistakes);
   check_cameras(scenario, mistakes);
-  check_lidars(scenario, mistakes);
   check_sensors(scenario.sensors, mistakes);
-  check_sensor_names(scenario, mistakes);
+  check_scans(scenario, mistakes);
+  // What a unit is called is wrong before it is switched on.
+  copy.imu_on = form.imu_on || (form.rest.imus.empty() && (form.imu.topic || form.imu.frame_id));
+  check_sensor_names(copy.normalized(), mistakes);
   check_meshes(scenario.outputs, mistakes);
+  check_datasets(scenario, mistakes);
   check_stamps(scenario, mistakes);
   check_rawlog(scenario, mistakes);
   check_record_settling(scenario.record_settling, mistakes);
@@ -195,10 +255,10 @@ std::vector<Diagnostic> find_mistakes(const Scenario& scenario) {
     mistakes.push_back({"", 0, "voids.radius", "smaller than a voxel",
                         "at least voids.voxel = " + format_number(scenario.voids.voxel),
                         format_number(scenario.voids.radius), ""});
-  if (scenario.lights.size() + 1 > kMostLights)
+  if (scenario.lights.size() > kMostLights)
     mistakes.push_back({"", 0, "lights", "too many lights",
                         "at most " + std::to_string(kMostLights - 1) + " besides the main one",
-                        std::to_string(scenario.lights.size()), ""});
+                        std::to_string(scenario.lights.size() - 1), ""});
   for (Diagnostic& d : find_mistakes(scenario.trajectory)) mistakes.push_back(std::move(d));
   if (mistakes.empty()) check_smoothness(scenario, mistakes);
   return mistakes;
@@ -219,9 +279,13 @@ TrajectorySpec flown_trajectory(const Scenario& scenario) {
   TrajectorySpec spec = scenario.trajectory;
   if (spec.ride.on()) return stand_in_for_ride(scenario);
   const bool curved_way = spec.plan == Plan::avoid && spec.interpolation == Interpolation::spline;
-  if (!spec.smoothing && !spec.limits.max_jerk && (scenario.imu.on || curved_way))
+  if (!spec.smoothing && !spec.limits.max_jerk && (scenario.has_unit_on_rig() || curved_way))
     spec.smoothing = kUsualSmoothing;
   return spec;
+}
+
+bool Scenario::has_unit_on_rig() const {
+  return std::any_of(imus.begin(), imus.end(), [](const ImuScenario& imu) { return !imu.ride.on(); });
 }
 
 bool needs_track(const Scenario& scenario) {
@@ -234,14 +298,15 @@ void Scenario::validate() const {
 }
 
 LightSpec resolve_light(const Scenario& scenario) {
-  LightSpec light = scenario.light.spec;
-  if (scenario.light.random_position) {
+  const LightScenario& main = scenario.lights.front();
+  LightSpec light = main.spec;
+  if (main.random_position) {
     RandomStream random(scenario.seed, "light/position");
     for (int i = 0; i < 3; ++i)
-      light.position[i] += random.uniform(-0.5, 0.5) * scenario.light.position_bounds[i];
+      light.position[i] += random.uniform(-0.5, 0.5) * main.position_bounds[i];
   }
-  place_sun(scenario.light, light);
-  if (!scenario.light.random_rotation) return light;
+  place_sun(main, light);
+  if (!main.random_rotation) return light;
   RandomStream random(scenario.seed, "light/rotation");
   const double pitch = random.uniform(20, 80);
   light.rpy_deg = {0, pitch, random.uniform(-180, 180)};

@@ -20,7 +20,6 @@
 #include "kernel/settling/settle.h"
 #include "render/scene/scene.h"
 #include "scripting/scenario/camera_scenario.h"
-#include "scripting/scenario/lidar_scenario.h"
 #include "scripting/scenario/robot_scenario.h"
 #include "scripting/sensors/sensor_item.h"
 #include "scripting/trajectory/trajectory.h"
@@ -119,6 +118,9 @@ enum class DepthEncoding {
 
 enum class PictureEncoding { raw, png, jpeg };
 
+// Of streams with several values a pixel, such as normals.
+enum class VectorEncoding { values, colours };
+
 enum class RawlogFormat {
   observations,  // a sequence of observations
   actions,       // actions of a robot and frames of observations in turn
@@ -137,6 +139,11 @@ struct OutputScenario {
   bool frames = false;              // plain PNG and EXR: a folder
   bool pcd = false;                 // PCL: a folder of a file a scan
   bool kitti = false;               // KITTI: a folder of a file a scan
+  bool kitti_odometry = false;      // KITTI odometry: a folder with pictures, scans and poses
+  bool nerfstudio = false;          // nerfstudio and splats: a folder with transforms.json
+  bool coco = false;                // COCO: a folder with boxes and masks
+  bool webdataset = false;          // WebDataset: a folder of tar files
+  bool lerobot = false;             // LeRobot v3: a folder of Parquet files and videos
   bool stl = true;                  // pile.stl
   bool track = false;               // motion of the pieces: track.bin and, as glTF animation, track.glb
   std::vector<std::string> meshes;  // the pile in further formats, of export_names()
@@ -145,6 +152,7 @@ struct OutputScenario {
   bool preview = true;              // preview.png, a contact sheet
   DepthEncoding depth = DepthEncoding::millimetres;  // in bag and MCAP file
   PictureEncoding pictures = PictureEncoding::raw;   // in bag and MCAP file
+  VectorEncoding vectors = VectorEncoding::values;   // in bag and MCAP file
 };
 
 // Records the pile while it settles, by a standing camera before its flight.
@@ -183,26 +191,25 @@ struct Scenario {
   FinesSpec fines;                        // small debris
   SurroundingsSpec surroundings;          // street around the pile
   SettleOptions settle;  // its `threads` is not part of a scenario: results do not depend on it
-  LightScenario light;   // the main light
-  std::vector<LightSpec> lights;  // besides the main one; at most kMostLights - 1
+  // At least the main light, which has the sky; of the others `spec` alone counts. At most kMostLights.
+  std::vector<LightScenario> lights{LightScenario{}};
   double wetness = 0;             // of all surfaces; range: 0 to 1
   AirSpec air;                    // fog, smoke, dust
-  CameraScenario camera;          // image, lens, channels
-  std::vector<MountedCamera> cameras;  // instead of `camera`: several, by name
-  DepthSensorSpec depth_sensor;   // model of a real depth sensor
-  EventCameraSpec event_camera;   // changes of brightness
+  std::vector<MountedCamera> cameras{MountedCamera{}};  // at least one; if it is not `named`, no other
   LampSpec lamp;                  // on the camera
   TrajectorySpec trajectory;      // path of the camera
-  ImuScenario imu;                // in the camera
-  std::vector<ImuScenario> imus;  // instead of `imu`: several, by name
-  std::vector<LidarScenario> lidars;  // on the rig, by name
-  std::vector<SensorItem> sensors;  // of the other kinds, in the order of kinds, then by name
+  std::vector<ImuScenario> imus;  // inertial units; if one is not `named`, no other
+  std::vector<SensorItem> sensors;  // of the kinds of sensor_kinds(), in their order, then by name
   RecordSettlingScenario record_settling;  // recording before the flight
   OutputScenario outputs;         // files
   VoidScenario voids;             // measurement of voids
   std::vector<RobotItem> robots;  // driven through the settled pile
   RobotRunScenario robot_run;     // duration and rates
 
+  // Whether files and folders of cameras have their names.
+  bool names_cameras() const { return cameras.front().named; }
+  // Whether an inertial unit flies with the rig, whose path must then be smooth.
+  bool has_unit_on_rig() const;
   // Throws InputError with every mistake: values out of range, not finite, or in contradiction.
   void validate() const;
 };
@@ -210,14 +217,10 @@ struct Scenario {
 // The mistakes that validate() throws; empty: none. Keys are schema paths such as "pile.mix[1].scale".
 std::vector<Diagnostic> find_mistakes(const Scenario& scenario);
 
-// The cameras of a mission: those of `cameras`, or `camera` as the rig itself.
-std::vector<MountedCamera> all_cameras(const Scenario& scenario);
-// The inertial units: those of `imus`, or `imu` if it is on.
-std::vector<ImuScenario> all_imus(const Scenario& scenario);
 // Whether a camera has this stream of ground truth.
 bool has_channel(const Scenario& scenario, const std::string& name);
 
-// The trajectory with a default smoothing if the mission sets none: kUsualSmoothing with an inertial unit and for
+// The trajectory with a default smoothing if the mission sets none: kUsualSmoothing with an inertial unit on the rig and for
 // curves around obstacles, else none. The path of a ride is known only after the robot was driven; until then a
 // placeholder with the same times is returned.
 TrajectorySpec flown_trajectory(const Scenario& scenario);

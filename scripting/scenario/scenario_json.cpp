@@ -92,21 +92,21 @@ Value parse_json(const std::string& text, const std::string& file) {
 }
 
 std::string scenario_to_json(const Scenario& scenario) {
-  Scenario copy = scenario;
-  return members_to_json(make_scenario_schema(copy));
+  MissionForm form(scenario);
+  return members_to_json(make_scenario_schema(form));
 }
 
 Scenario scenario_from_json(const std::string& text, const std::string& file) {
-  Scenario scenario;
+  MissionForm form;
   std::vector<Diagnostic> mistakes;
   const Value value = parse_json(text, file);
   if (value.kind != Value::Kind::table)
     throw InputError({file, 0, "", "not a scenario", "an object", describe(value), ""});
-  read_table(make_scenario_schema(scenario), value, mistakes);
-  if (mistakes.empty()) mistakes = find_mistakes(scenario);
+  read_table(make_scenario_schema(form), value, mistakes);
+  if (mistakes.empty()) mistakes = find_mistakes(form);
   for (Diagnostic& d : mistakes) d.file = file;
   if (!mistakes.empty()) throw InputError(std::move(mistakes));
-  return scenario;
+  return form.normalized();
 }
 
 }  // namespace rubble

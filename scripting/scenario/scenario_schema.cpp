@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "scripting/scenario/camera_schema.h"
-#include "scripting/scenario/lidar_schema.h"
 #include "scripting/scenario/pile_schema.h"
 #include "scripting/scenario/robot_scenario.h"
 #include "scripting/scenario/sky_schema.h"
@@ -93,25 +92,27 @@ void add_light(Schema& k, LightScenario& l) {
   add_sky_keys(k, l);
 }
 
-void add_more_lights(Schema& k, std::vector<LightSpec>& lights) {
+void add_more_lights(Schema& k, std::vector<LightScenario>& lights) {
   k.list("lights", lights,
          "Further lights, at most three. Only the main light has a sky.");
   k.add("lights[].type", "Type of light.", [&lights](std::size_t i) {
-    return Schema::choice_slot(lights[i].type, {"directional", "spot", "point"});
+    return Schema::choice_slot(lights[i].spec.type, {"directional", "spot", "point"});
   });
-  k.item("lights[].intensity", lights, &LightSpec::intensity,
-         "Illuminance of a directional light in klx; luminous intensity of a spot or point light in kcd.")
-      .between(0, 1000)
+  const auto item = [&](const char* key, auto LightSpec::*member, const char* doc) {
+    return &k.add(std::string("lights[].") + key, doc, [&lights, member](std::size_t i) { return Slot(&(lights[i].spec.*member)); });
+  };
+  item("intensity", &LightSpec::intensity,
+       "Illuminance of a directional light in klx; luminous intensity of a spot or point light in kcd.")
+      ->between(0, 1000)
       .unit("klx or kcd");
-  k.item("lights[].rpy_deg", lights, &LightSpec::rpy_deg,
-         "Direction of the beam: roll, pitch (positive: down), yaw.")
-      .between(-360, 360)
+  item("rpy_deg", &LightSpec::rpy_deg, "Direction of the beam: roll, pitch (positive: down), yaw.")
+      ->between(-360, 360)
       .unit("degree");
-  k.item("lights[].position", lights, &LightSpec::position, "Position of a spot or point light.")
-      .between(-1000, 1000)
+  item("position", &LightSpec::position, "Position of a spot or point light.")
+      ->between(-1000, 1000)
       .unit("m");
-  k.item("lights[].cone_deg", lights, &LightSpec::cone_deg, "Full angle of the cone of a spot light.")
-      .between(1, 170)
+  item("cone_deg", &LightSpec::cone_deg, "Full angle of the cone of a spot light.")
+      ->between(1, 170)
       .unit("degree");
 }
 
@@ -224,7 +225,7 @@ void add_trajectory(Schema& k, TrajectorySpec& t) {
       .unit("m/s3");
   k.value("trajectory.smoothing", t.smoothing,
           "Time over which corners in position and view are rounded, so that the acceleration has no jumps; 0: none. "
-          "Not given: 0.1 with an IMU, `max_jerk`, `rest_at_ends`, or a spline with the plan `avoid`; otherwise 0.")
+          "Not given: 0.1 with an IMU on the rig, `max_jerk`, `rest_at_ends`, or a spline with the plan `avoid`; otherwise 0.")
       .between(0, 2)
       .unit("s");
   k.value("trajectory.rest_at_ends", t.rest_at_ends,
@@ -306,17 +307,17 @@ Schema named_imu_schema(ImuScenario& s) {
   return k;
 }
 
-void add_imu(Schema& k, Scenario& s) {
+void add_imu(Schema& k, MissionForm& form) {
   k.group("imu",
           "An inertial measurement unit (IMU) on the rig, with white noise and random-walk biases. The rig of a "
           "single `camera` is the camera body.");
-  k.value("imu.on", s.imu.on, "Switches the IMU on.");
-  add_imu_figures(k, "imu.", s.imu);
+  k.value("imu.on", form.imu_on, "Switches the IMU on.");
+  add_imu_figures(k, "imu.", form.imu);
   k.add("imus",
         "Several IMUs instead of `imu`: `imus = { head = { ride = { robot = \"snake\" } } }`. Names have lower-case "
         "letters, digits and underscores. Each IMU has every key of `imu` except `on`.",
-        [&s](std::size_t) {
-          return Schema::named_tables(s.imus, &ImuScenario::name, "head", named_imu_schema);
+        [&form](std::size_t) {
+          return Schema::named_tables(form.rest.imus, &ImuScenario::name, "head", named_imu_schema);
         });
 }
 
@@ -363,9 +364,19 @@ void add_outputs(Schema& k, OutputScenario& o) {
   k.value("outputs.euroc", o.euroc, "EuRoC MAV sequence, grey pictures: the folder euroc.");
   k.value("outputs.colmap", o.colmap, "COLMAP model with the true poses: the folder colmap.");
   k.value("outputs.frames", o.frames, "Every channel as PNG, EXR or text: the folder frames.");
-  k.value("outputs.pcd", o.pcd, "Each scan of each LiDAR as a PCD file, and its true motion: the folder pcd.");
+  k.value("outputs.pcd", o.pcd, "Each scan as a PCD file, and the true motion of its sensor: the folder pcd.");
   k.value("outputs.kitti", o.kitti,
-          "Each scan of each LiDAR as a KITTI binary file, with times and poses: the folder kitti.");
+          "Each scan as a KITTI binary file, with times and poses: the folder kitti.");
+  k.value("outputs.kitti_odometry", o.kitti_odometry,
+          "A KITTI odometry sequence: rectified pictures, the first LiDAR's scans, calibration and poses: the folder "
+          "kitti_odometry.");
+  k.value("outputs.nerfstudio", o.nerfstudio,
+          "Pictures, depth, true poses and points for radiance fields and splats: the folder nerfstudio.");
+  k.value("outputs.coco", o.coco,
+          "Boxes and masks of all pieces in COCO's format; each camera needs the channel `instance`: the folder coco.");
+  k.value("outputs.webdataset", o.webdataset, "Every channel of a camera in tar files of WebDataset: the folder webdataset.");
+  k.value("outputs.lerobot", o.lerobot,
+          "A LeRobot v3 dataset of one episode, with the states of the robots and videos: the folder lerobot.");
   k.value("outputs.stl", o.stl, "The settled pile as a mesh: pile.stl.");
   k.value("outputs.track", o.track,
           "The motion of every piece while the pile settled: track.bin, and track.glb, a glTF animation.");
@@ -374,12 +385,15 @@ void add_outputs(Schema& k, OutputScenario& o) {
           "scenes for simulators, with all pieces fixed; `rubble export --dynamic` frees pieces.");
   k.value("outputs.groundtruth", o.groundtruth, "Poses of the camera in TUM format: groundtruth.txt.");
   k.value("outputs.sensors", o.sensors, "Readings of range finders, bumpers and so on: sensors/NAME.csv, where the mission has any.");
-  k.value("outputs.preview", o.preview, "A contact sheet of colour, depth and the first LiDAR's scans from above: preview.png.");
+  k.value("outputs.preview", o.preview, "A contact sheet of colour, depth and the scans of the first sensor that scans, from above: preview.png.");
   k.choice("outputs.depth", o.depth, {"16UC1", "32FC1"},
            "Depth in bag and MCAP files: millimetres (0: none) or metres (NaN: none).");
   k.choice(
       "outputs.pictures", o.pictures, {"raw", "png", "jpeg"},
       "Pictures in bag and MCAP files: raw, or CompressedImage; `jpeg` is lossy for colour, never for depth.");
+  k.choice("outputs.vectors", o.vectors, {"values", "colours"},
+           "`normals`, `flow` and `position` in bag and MCAP files: 32FC2 and 32FC3, which hold every value, or rgb8, which every "
+           "viewer shows.");
 }
 
 void add_voids(Schema& k, VoidScenario& v) {
@@ -414,7 +428,8 @@ void add_aliases(Schema& k) {
 
 }  // namespace
 
-Schema make_scenario_schema(Scenario& s) {
+Schema make_scenario_schema(MissionForm& form) {
+  Scenario& s = form.rest;
   Schema keys;
   add_top(keys, s);
   add_pile_keys(keys, s.pile);
@@ -422,13 +437,12 @@ Schema make_scenario_schema(Scenario& s) {
   add_fine_keys(keys, s.fines);
   add_surroundings_keys(keys, s.surroundings);
   add_settle(keys, s.settle);
-  add_light(keys, s.light);
+  add_light(keys, form.light);
   add_more_lights(keys, s.lights);
   add_air_and_lamp(keys, s.air, s.lamp);
-  add_camera_keys(keys, s);
+  add_camera_keys(keys, form);
   add_trajectory(keys, s.trajectory);
-  add_imu(keys, s);
-  add_lidar_keys(keys, s);
+  add_imu(keys, form);
   add_sensor_keys(keys, s.sensors);
   add_record_settling(keys, s.record_settling);
   add_voids(keys, s.voids);

@@ -39,6 +39,7 @@ class Bumper : public SensorKind {
   }
   double usual_rate_hz() const override { return 50; }
   bool on_robots_only() const override { return true; }
+  bool feels_contacts() const override { return true; }
   std::vector<std::string> links() const override { return f_.links; }
   std::unique_ptr<SensorKind> clone() const override { return std::make_unique<Bumper>(*this); }
 

@@ -31,6 +31,7 @@ void reset_kin(std::vector<SensorItem>& sensors, const SensorKind& kind, const s
 
 Schema sensor_schema(SensorItem& sensor) {
   Schema k;
+  sensor.figures->add_model_key(k);
   k.group("ride", "Link of a robot that carries the sensor, instead of the rig.");
   k.value("ride.robot", sensor.ride.robot, "Name of the robot.");
   k.value("ride.link", sensor.ride.link, "Link of the robot; not given: the first link.");
@@ -40,10 +41,10 @@ Schema sensor_schema(SensorItem& sensor) {
   k.value("rpy_deg", sensor.rpy_deg, "Orientation in the same frame: roll, pitch (positive: down), yaw.")
       .between(-360, 360)
       .unit("degree");
-  k.value("rate_hz", sensor.rate_hz, "Readings per second.").between(0.01, 1000).unit("Hz");
+  if (!sensor.figures->own_rate_hz()) k.value("rate_hz", sensor.rate_hz, "Readings per second.").between(0.01, 1000).unit("Hz");
   sensor.figures->add_keys(k);
   k.value("noise", sensor.noise, "false: exact readings.");
-  k.value("topic", sensor.topic, "ROS topic; not given: `/NAME`.");
+  k.value("topic", sensor.topic, "ROS topic; not given: `/NAME`, unless the kind has another.");
   k.value("frame_id", sensor.frame_id, "TF frame; not given: `NAME_link`.");
   return k;
 }
@@ -56,14 +57,31 @@ Pose SensorItem::carrier_from_sensor() const {
 }
 
 std::int64_t SensorItem::stamp_ns(std::int64_t k, std::int64_t start_ns) const {
-  return start_ns + std::int64_t(std::floor(double(k) * 1e9 / rate_hz + 0.5));
+  return start_ns + std::int64_t(std::floor(double(k) * 1e9 / rate() + 0.5));
+}
+
+std::uint64_t SensorItem::noise_seed(std::uint64_t mission_seed) const {
+  return RandomStream(mission_seed, figures->key() + "/" + name).next();
 }
 
 std::unique_ptr<SensorMeter> SensorItem::start(const SensorSite& site, std::uint64_t mission_seed) const {
-  std::optional<std::uint64_t> seed;
-  if (noise) seed = RandomStream(mission_seed, figures->key() + "/" + name).next();
-  return figures->start(site, seed, rate_hz);
+  return figures->start(site, noise ? std::optional(noise_seed(mission_seed)) : std::nullopt, rate());
 }
+
+std::string topic_of(const std::vector<SensorItem>& sensors, const SensorItem& sensor) {
+  if (sensor.topic) return *sensor.topic;
+  const std::string usual = sensor.figures->usual_topic();
+  const auto kin = std::count_if(sensors.begin(), sensors.end(), [&](const SensorItem& other) {
+    return !other.topic && other.figures->usual_topic() == usual;
+  });
+  return (!usual.empty() && kin == 1 ? "" : "/" + sensor.name) + usual;
+}
+
+bool casts_rays(const std::vector<SensorItem>& sensors) {
+  return std::any_of(sensors.begin(), sensors.end(), [](const SensorItem& s) { return s.figures->casts_rays(); });
+}
+
+bool scans(const SensorItem& sensor) { return sensor.figures->most_points() > 0; }
 
 void add_sensor_keys(Schema& keys, std::vector<SensorItem>& sensors) {
   for (const SensorKind* kind : sensor_kinds())

@@ -35,20 +35,26 @@ struct SensorItem {
   Carrier ride{};        // what carries it instead of the rig
   Vec3 position;         // in the rig or the link (X forward, Y left, Z up); unit: m
   Vec3 rpy_deg;          // likewise; unit: degree
-  double rate_hz;        // of its readings; unit: Hz
+  double rate_hz;        // of its readings, unless its kind has a rate of its own; unit: Hz
   bool noise = true;     // false: exact
-  std::optional<std::string> topic{};     // ROS; not given: "/NAME"
+  std::optional<std::string> topic{};     // ROS; not given: see topic_of()
   std::optional<std::string> frame_id{};  // TF; not given: "NAME_link"
 
   std::string key() const { return figures->key() + "." + name; }  // of the mission
-  std::string ros_topic() const { return topic.value_or("/" + name); }
+  double rate() const { return figures->own_rate_hz().value_or(rate_hz); }  // unit: Hz
   std::string frame() const { return frame_id.value_or(name + "_link"); }
   Pose carrier_from_sensor() const;
   // Of reading k.
   std::int64_t stamp_ns(std::int64_t k, std::int64_t start_ns) const;
-  // As SensorKind::start(). mission_seed: of the noise of all sensors.
+  std::uint64_t noise_seed(std::uint64_t mission_seed) const;  // of the noise of all sensors
+  // As SensorKind::start().
   std::unique_ptr<SensorMeter> start(const SensorSite& site, std::uint64_t mission_seed) const;
 };
+
+// ROS: its own key; else that of its kind, if it is the only one of it, and with its name else.
+std::string topic_of(const std::vector<SensorItem>& sensors, const SensorItem& sensor);
+bool casts_rays(const std::vector<SensorItem>& sensors);  // any of them
+bool scans(const SensorItem& sensor);  // whether its readings are scans
 
 // A key for each kind: the sensors of that kind, by name.
 void add_sensor_keys(Schema& keys, std::vector<SensorItem>& sensors);

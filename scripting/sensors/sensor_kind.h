@@ -1,4 +1,4 @@
-// A kind of sensor that gives a few numbers at a fixed rate: its keys, what it measures, how a reading is written.
+// A kind of sensor that gives a few numbers or a scan at a fixed rate: its keys, what it measures, how a reading is written.
 //
 // One class in one file is a kind; RUBBLE_SENSORS of scripting/CMakeLists.txt lists the bundled ones, and
 // register_sensor() adds one from outside. Missions, --set, documents, the JSON Schema, recordings, hashes, live topics,
@@ -19,6 +19,9 @@
 
 namespace rubble {
 
+class Medium;
+class RayWorld;
+
 // What a sensor may ask of the world around it. t: since the start; unit: s
 struct SensorSite {
   struct Hit {
@@ -35,17 +38,33 @@ struct SensorSite {
   // after `from` up to `to`; contacts with the robot itself do not count. unit: N
   std::function<double(const std::vector<std::string>& links, double from, double to)> contact_force;
 
+  // For one that scans: what its rays meet, and what hangs in the air; of chance that it has without noise; threads to use.
+  std::shared_ptr<RayWorld> rays;
+  std::shared_ptr<const Medium> air;
+  std::uint64_t seed = 0;
+  int threads = 1;
+
+  std::int64_t start_ns = 0;          // stamp of t = 0
   std::int64_t utc_s = 0;             // at t = 0; by the mission's `light.time`, else by its first stamp
   double latitude_deg = 0, longitude_deg = 0;  // of the world's origin; north and east are positive
   double north_deg = 90;              // direction of north, from X towards Y; unit: degree
 };
 
-// Measures; readings are asked for in their order, once each.
+// Measures; readings are asked for in their order, once each. A kind gives one of both: numbers, or scans.
 class SensorMeter {
  public:
   virtual ~SensorMeter() = default;
   // t: since the start; unit: s. Values as ReadingFormat::columns() says.
-  virtual std::vector<double> read(double t) = 0;
+  virtual std::vector<double> read(double) { return {}; }
+  // number: from 0.
+  virtual std::shared_ptr<const RangeScan> scan(int) { return nullptr; }
+};
+
+// What must be known before a reading is taken.
+struct SensorTiming {
+  bool lasts_a_period = false;   // it goes on from its stamp to that of the next; else it is of a moment
+  std::int64_t way_ns = 1000;    // of the carrier's way, before it begins and after it ends; unit: ns
+  std::int64_t scene_ns = 1000;  // of the scene, after it ends; for those that cast rays; unit: ns
 };
 
 class SensorKind : public ReadingFormat {
@@ -56,13 +75,21 @@ class SensorKind : public ReadingFormat {
   virtual std::string example() const = 0;  // of a name, for documents
   virtual std::string doc() const = 0;      // what it is: whole sentences
   virtual double usual_rate_hz() const = 0;
+  // Of a kind with a key `rate_hz` of its own; nothing: it has the usual one.
+  virtual std::optional<double> own_rate_hz() const { return std::nullopt; }
+  virtual SensorTiming timing(double /*rate_hz*/) const { return {}; }
+  virtual std::string summary(double rate_hz) const { return format_number(rate_hz) + " Hz"; }  // for cards
+  // Topic of the only sensor that has it, "/points"; several: "/NAME/points". Empty: "/NAME" of each.
+  virtual std::string usual_topic() const { return ""; }
   virtual bool on_robots_only() const { return false; }  // whether it needs a `ride`
-  virtual bool casts_rays() const { return false; }      // whether it calls SensorSite::cast
+  virtual bool casts_rays() const { return false; }      // whether it sees the scene
+  virtual bool feels_contacts() const { return false; }  // whether it calls SensorSite::contact_force
   virtual std::vector<std::string> links() const { return {}; }  // that contact_force() is asked for
 
   virtual std::unique_ptr<SensorKind> clone() const = 0;
   // Keys of its figures, bound to this object. Those of mount, rate and names are added for all kinds.
   virtual void add_keys(Schema& keys) = 0;
+  virtual void add_model_key(Schema&) {}  // that comes before all others
   // Mistakes that no single key shows; keys as in add_keys().
   virtual std::vector<Diagnostic> find_mistakes() const { return {}; }
 

@@ -36,7 +36,7 @@ struct Drop {
         "m.lua");
     assets = load_assets(mission, {});
     for (const Placement& p :
-         generate_pile(build_pile_spec(mission.scenario, assets)).placed) {
+         generate_pile(build_pile_spec(mission.scenario.pile, mission.scenario.seed, assets)).placed) {
       pieces.push_back({});
       pieces.back().placement = p;
     }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/app/program.h"
+#include "tests/app/tiny_run.h"
 #include "tests/io/support.h"
 
 namespace rubble::testing {
@@ -195,27 +196,40 @@ TEST_F(Cameras, VerifyFindsTheSame) {
   EXPECT_EQ(verify.exit_code, 0) << verify.out << verify.err;
 }
 
-// The short form is not touched: a single camera of `cameras` that is the rig sees the same pixels.
-TEST(CamerasShortForm, GivesThePixelsOfACameraThatIsTheRig) {
+// One camera and one unit, in either form, are the same sensors: the same path, the same bits of every sample.
+TEST(CamerasShortForm, GivesTheSamplesOfListsOfOne) {
   const ScratchFolder folder;
+  const std::string camera = "width = 64, height = 48, channels = { \"position\" }";
+  // Without noise, whose seed is of the name.
+  const std::string beside = "depth_sensor = { type = \"ideal\" }, "
+                             "event_camera = { on = true, threshold_noise = 0, background_hz = 0 }";
+  const std::string unit = "rate_hz = 50, position = { 0.1, 0, 0 }, gyroscope_noise = 0, gyroscope_walk = 0, "
+                           "accelerometer_noise = 0, accelerometer_walk = 0";
   const std::string rest =
-      "pile = { layers = 0 }, trajectory = { waypoints = { { t = 0, position = { 0, 0, 2 }, "
-      "rpy_deg = { 0, 30, 0 } } } }, outputs = { frames = true } }";
-  write_file(folder / "one.lua",
-             "return rubble.mission { camera = { width = 64, height = 48 }, " + rest);
-  write_file(folder / "named.lua",
-             "return rubble.mission { cameras = { eye = { width = 64, height = 48 } }, " + rest);
-  for (const char* name : {"one", "named"}) {
+      "pile = { layers = 0 }, light = { elevation_deg = 20 }, trajectory = { rate_hz = 8, waypoints = { "
+      "{ t = 0, position = { 0, 0, 2 }, rpy_deg = { 0, 30, 0 } }, { t = 0.5, position = { 0.5, 0, 2 }, rpy_deg = { 0, 30, 9 } }, "
+      "{ t = 1, position = { 0.5, 0.5, 2 }, rpy_deg = { 0, 30, 0 } } } }, outputs = { frames = true } }";
+  write_file(folder / "one.lua", "return rubble.mission { camera = { " + camera + " }, " + beside + ", imu = { on = true, " + unit +
+                                     " }, " + rest);
+  write_file(folder / "lists.lua", "return rubble.mission { cameras = { camera = { " + camera + ", " + beside +
+                                       " } }, imus = { imu = { " + unit + " } }, " + rest);
+  for (const char* name : {"one", "lists"}) {
     const Outcome run = run_rubble("run " + (folder / (std::string(name) + ".lua")) +
                                    " --quiet --out " + (folder / name));
     ASSERT_EQ(run.exit_code, 0) << run.err;
   }
-  for (const char* picture : {"rgb/000000.png", "depth/000000.exr", "poses.csv"}) {
-    const std::string one = read_file(folder / (std::string("one/frames/") + picture));
-    EXPECT_FALSE(one.empty());
-    EXPECT_TRUE(one == read_file(folder / (std::string("named/cameras/eye/frames/") + picture)))
-        << picture;
+  const Json one = read_manifest(folder / "one"), lists = read_manifest(folder / "lists");
+  EXPECT_EQ(one["frame_hashes"]["channels"], (Json{"pose", "rgb", "depth", "measured_depth", "position", "events", "imu"}));
+  EXPECT_EQ(lists["frame_hashes"]["channels"], (Json{"camera/pose", "camera/rgb", "camera/depth", "camera/measured_depth",
+                                                     "camera/position", "camera/events", "imu"}));
+  EXPECT_EQ(one["frame_hashes"]["xxh64"].size(), 9u);
+  EXPECT_EQ(one["frame_hashes"]["xxh64"], lists["frame_hashes"]["xxh64"]);
+  for (const char* file : {"frames/rgb/000000.png", "frames/depth/000000.exr", "frames/poses.csv", "groundtruth.txt"}) {
+    const std::string text = read_file(folder / (std::string("one/") + file));
+    EXPECT_FALSE(text.empty());
+    EXPECT_TRUE(text == read_file(folder / (std::string("lists/cameras/camera/") + file))) << file;
   }
+  EXPECT_TRUE(read_file(folder / "one/flight.json") == read_file(folder / "lists/flight.json")) << "smoothed likewise";
 }
 
 // The mission that shows it, with a fisheye beside a pinhole, and what is in its bag by rosbag.
@@ -298,8 +312,6 @@ TEST(CamerasInput, MistakesAreNamed) {
   expect("cameras = { a = { channels = { \"flows\" } } }",
          "cameras.a.channels[1]: unknown channel `flows` (did you mean `flow`?)");
   expect("cameras = { a = { lens = { k1 = 0.1 } } }", "cameras.a.lens.model: a pinhole has no distortion");
-  expect("cameras = { a = {}, b = { quality = \"reference\" } }",
-         "cameras.b.quality: differs from the quality of another camera");
 }
 
 TEST(CamerasInput, OverridesReachATableByName) {

@@ -85,7 +85,7 @@ TEST(DiskEstimate, HoldsForABuilding) {
   const AssetLibrary assets = load_assets(mission, {});
   const Sizes said = estimate_files(mission.scenario, assets, true);
   const Outcome run = run_rubble("settle " + (scratch / "house.lua") + " --out " + (scratch / "a"));
-  const std::string pieces = std::to_string(int(count_building_pieces(mission.scenario, assets)));
+  const std::string pieces = std::to_string(int(count_building_pieces(mission.scenario.pile, assets)));
   EXPECT_NE(run.err.find(pieces + " pieces; at most"), std::string::npos) << pieces << "\n" << run.err;
   const Sizes found = measure(scratch / "a");
   EXPECT_GT(found.at("pile.bin"), 5000u);  // more than a pile without pieces has

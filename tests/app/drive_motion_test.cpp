@@ -88,5 +88,37 @@ TEST(DriveLog, TheMissionGivesThePosesAgainBitForBit) {
   }
 }
 
+// Frames are rare, steps are not: every fourth has one, with the poses that were seen there.
+TEST(DriveLog, StepsBetweenFramesAreInTheMissionToo) {
+  for (const double rate : {1.0, 0.7}) {
+    Scenario scenario = settle_text(kWall).mission.scenario;
+    scenario.trajectory.rate_hz = rate;
+    adapt_to_driving(scenario);
+    for (const int steps : {1, 5, 8, 42}) {
+      DriveLog log(scenario, 4);
+      std::vector<Pose> driven;
+      for (int i = 0; i < steps; ++i) {
+        const DrivenPose pose{{0.1 * i, 0.3 * (i % 3), 1}, {0, 0, 7.0 * i}};
+        log.add(pose);
+        EXPECT_EQ(log.at_frame(), i % 4 == 0);
+        if (log.at_frame()) driven.push_back(pose.world_from_camera());
+      }
+      EXPECT_EQ(log.frames(), int(driven.size()));
+      const TrajectorySpec spec = load_mission_text(log.mission("a drive"), "leg.lua").scenario.trajectory;
+      EXPECT_EQ(spec.rate_hz, rate);
+      EXPECT_EQ(spec.waypoints.size(), std::size_t(steps) + 1);
+      const std::vector<CameraPose> flown = sample_trajectory(spec, scenario.start_ns);
+      const CameraPath path(spec);
+      ASSERT_EQ(flown.size(), driven.size()) << steps;
+      for (std::size_t i = 0; i < flown.size(); ++i) {
+        EXPECT_EQ(flown[i].stamp_ns, log.stamp_ns(int(i)));
+        EXPECT_TRUE(flown[i].world_from_camera.rotation == driven[i].rotation) << i;
+        EXPECT_TRUE(flown[i].world_from_camera.translation == driven[i].translation) << i;
+        EXPECT_TRUE(path.motion_at(double(flown[i].stamp_ns - scenario.start_ns) * 1e-9).velocity == log.velocity(int(i))) << i;
+      }
+    }
+  }
+}
+
 }  // namespace drive_motion_test
 }  // namespace rubble::testing

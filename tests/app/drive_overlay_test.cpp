@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "app/drive/overlay/overlay.h"
-#include "kernel/robot/bundled.h"
+#include "scripting/robots/rover.h"
 #include "kernel/robot/parts.h"
 #include "kernel/robot/robot_run.h"
 

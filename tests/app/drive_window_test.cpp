@@ -133,10 +133,11 @@ TEST(DriveWindow, AHillsideHoldsTheCameraUp) {
 }
 
 const char* const kByKeys = R"(
-$program drive scripts/robots/crawler.lua --size 160x120 --quiet --set trajectory.rate_hz=10 \
+$program drive scripts/robots/crawler.lua --size 160x120 --quiet --set trajectory.rate_hz=1 \
   --set pile.pieces_per_layer=10 --out $d/out >$d/stdout 2>$d/stderr & drive=$!
 find_window
-xdotool windowfocus $w; xdotool keydown w; pause 2; xdotool keydown a; pause 1; xdotool keyup w keyup a
+for i in $(seq 100); do [ $(tr -d '\000' <$d/Xvfb_screen0 | wc -c) -gt 40000 ] && break; sleep 0.2; done  # drawn
+pause 0.5; xdotool windowfocus $w; xdotool keydown w; pause 2; xdotool keydown a; pause 1; xdotool keyup w keyup a
 xdotool keydown Down; pause 0.5; xdotool keyup Down; pause 0.3
 xdotool key Escape
 wait $drive
@@ -147,10 +148,14 @@ TEST(DriveWindow, ARobotDrivenByKeysRunsAgainWithTheSameBits) {
   ASSERT_EQ(drive(scratch, kByKeys), 0) << read_file(scratch / "stderr");
   const std::string leg = read_file(scratch / "out/leg_001.lua");
   EXPECT_NE(leg.find("linear = 0.5"), std::string::npos) << leg;
+  EXPECT_LT(leg.find("linear = 0.5"), leg.find(" t = 0.0,")) << "time began before the first key: " << leg;
+  EXPECT_NE(leg.find("live_light = true"), std::string::npos) << "lit otherwise than it was seen: " << leg;
+  const std::size_t path = leg.find("trajectory = {");
+  EXPECT_EQ(leg.find("rate_hz", path), leg.find("rate_hz = 1.0", path)) << "frames at another rate: " << leg;
   EXPECT_NE(leg.find("angular = 1"), std::string::npos) << leg;
   EXPECT_NE(leg.find("flippers_deg"), std::string::npos) << leg;
   const Outcome again = run_rubble("run " + (scratch / "out/leg_001.lua") + " --quiet --out " + (scratch / "leg") +
-                                   " --set camera.width=32 --set camera.height=24 --set trajectory.rate_hz=1");
+                                   " --set camera.width=32 --set camera.height=24");
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_GT(read_file(scratch / "out/leg_001.track").size(), 1000U);
   EXPECT_TRUE(read_file(scratch / "out/leg_001.track") == read_file(scratch / "leg/robots/track.bin"));

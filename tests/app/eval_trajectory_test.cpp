@@ -100,6 +100,22 @@ TEST(TrajectoryError, RelativeErrorsAreThoseOfTheSteps) {
   EXPECT_NEAR(two.rpe_rot_rmse_deg, std::sqrt(9.0 / 2), 1e-9);
 }
 
+// Corners of a square that are up and down in turn, which no turn and no shift makes better; six poses in the middle are
+// right.
+TEST(TrajectoryError, HasMeanMedianAndMaximum) {
+  std::vector<PosePair> pairs;
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 corner{i == 0 || i == 3 ? 1.0 : -1.0, i < 2 ? 1.0 : -1.0, 0};
+    pairs.push_back({pose_at(corner + Vec3{0, 0, i % 2 == 0 ? 0.1 : -0.1}), pose_at(corner)});
+  }
+  for (int i = 0; i < 6; ++i) pairs.push_back({pose_at({}), pose_at({})});
+  const TrajectoryError e = calc_trajectory_error(pairs);
+  EXPECT_NEAR(e.ate_se3.mean, 0.04, 1e-12);
+  EXPECT_NEAR(e.ate_se3.median, 0, 1e-12);
+  EXPECT_NEAR(e.ate_se3.max, 0.1, 1e-12);
+  EXPECT_NEAR(e.ate_rmse_se3, std::sqrt(0.004), 1e-12);
+}
+
 TEST(TrajectoryError, PairsEachPoseOfTheShorterWithTheNearestInTime) {
   std::vector<StampedPose> truth, estimate;
   for (int i = 0; i < 10; ++i) truth.push_back({0.1 * i, pose_at({double(i), 0, 0}), i});
@@ -125,9 +141,11 @@ TEST(EvalTrajectory, PrintsTheKeysThatOthersRead) {
                                  (scratch / "truth.txt") + " --json");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
-  EXPECT_EQ(json.size(), 6u);
+  EXPECT_EQ(json.size(), 9u);
   EXPECT_EQ(json["pairs"], 4);
   EXPECT_NEAR(json["ate_rmse_se3_m"].get<double>(), std::sqrt(0.5), 1e-9);
+  for (const char* key : {"ate_mean_se3_m", "ate_median_se3_m", "ate_max_se3_m"})
+    EXPECT_NEAR(json[key].get<double>(), std::sqrt(0.5), 1e-9) << key;
   EXPECT_NEAR(json["ate_rmse_sim3_m"].get<double>(), 0, 1e-9);
   EXPECT_NEAR(json["sim3_scale"].get<double>(), 0.5, 1e-9);
   EXPECT_NEAR(json["rpe_trans_rmse_m"].get<double>(), 1, 1e-9);

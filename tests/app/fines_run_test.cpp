@@ -15,7 +15,6 @@
 #include "io/state/fines_file.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
-#include "kernel/geometry/fine_heaps.h"
 #include "kernel/queries/queries.h"
 #include "render/gl/gl_context.h"
 #include "render/renderer.h"
@@ -78,7 +77,7 @@ TEST(FinesRun, HasThemInEveryProductAndTheSameWhenItIsMadeAgain) {
   EXPECT_IN(",grit\n", read_file(out + "/labels.csv"));
   const PileState pile = load_pile_of(open_finished_run(out));
   std::size_t triangles = 0;
-  for (const FineHeap& heap : make_fine_heaps(pile.fines)) triangles += heap.mesh.triangles.size();
+  for (const FineHeap& heap : pile.fines.heaps()) triangles += heap.mesh.triangles.size();
   EXPECT_GT(triangles, 5000u);
   EXPECT_EQ(count_triangles(out + "/pile.stl"), count_triangles(bare + "/pile.stl") + triangles);
   EXPECT_IN("grit_10000000", read_file(out + "/pile.glb"));
@@ -112,7 +111,7 @@ TEST(FinesRun, DepthAndLabelsAreThoseOfTheTrueMeshes) {
   k.width = 320, k.height = 240, k.fx = k.fy = 220, k.cx = 159.5, k.cy = 119.5;
   const Pose eye{portable::quat_from_rpy(0, 0.6, 0.78), {-0.4, -0.4, 0.8}};
   const LinearFrame frame = renderer.render_linear(eye, k);
-  const std::vector<FineHeap> heaps = make_fine_heaps(settled.pile.fines);
+  const std::vector<FineHeap>& heaps = settled.pile.fines.heaps();
   int seen = 0, apart = 0;
   std::set<int> kinds;
   for (int v = 0; v < k.height; ++v)
@@ -130,7 +129,7 @@ TEST(FinesRun, DepthAndLabelsAreThoseOfTheTrueMeshes) {
   EXPECT_GT(seen, 2000);
   EXPECT_GE(kinds.size(), 3u);
   EXPECT_LE(apart, seen / 500);
-  const std::vector<std::string> names = label_names(scenario, assets);
+  const std::vector<std::string> names = ClassLabels(scenario, assets.types).names();
   for (const SceneInstance& instance : scene.instances) {
     if (instance.id < std::uint32_t(kFirstFineHeap)) continue;
     const FineKind kind = heaps[instance.id - std::uint32_t(kFirstFineHeap)].kind;
@@ -141,7 +140,8 @@ TEST(FinesRun, DepthAndLabelsAreThoseOfTheTrueMeshes) {
 TEST(FinesRun, GoWithThePieceThatTheyLieOn) {
   const ScratchFolder folder;
   const Settled settled = settle_here(folder);
-  const std::vector<int> hosts = find_heap_hosts(settled.pile);
+  std::vector<int> hosts;
+  for (const FineHeap& heap : settled.pile.fines.heaps()) hosts.push_back(heap.host);
   const auto on_piece = std::find_if(hosts.begin(), hosts.end(), [](int host) { return host >= 2; });
   ASSERT_NE(on_piece, hosts.end()) << "no fines on a brick";
   RobotTrack robots;

@@ -162,7 +162,7 @@ TEST(SmoothFlight, TheUnitFeelsTheWayAroundEverything) {
     SettledMission m = scene(tunnel(0.9, 0.9) + ", rubble.wall { x0 = -1, x1 = -0.8, width = 1.6, y = 0.5, height = 3 }",
                              std::string(how) + "plan = 'avoid', radius = 0.3, speed = 1, waypoints = { "
                              "{ position = { -3, 0, 1.2 } }, { position = { 3.2, 1, 1.2 } } }");
-    m.mission.scenario.imu.on = true;
+    m.mission.scenario.imus = {ImuScenario{}};
     const FlightPlan flight = plan(m);
     const PileQueries queries = m.queries();
     const CameraPath path(flight.trajectory);
@@ -208,7 +208,7 @@ TEST(SmoothFlight, IsRefusedWhereThereIsNoRoomToRoundACorner) {
                   "{ t = 0.125, position = { 0, 0, 1 } }, { t = 0.25, position = { 0, 5, 1 } } }");
     SettledMission m = scene("{ box = { 1, 1, 2 }, position = { " + std::to_string(-0.5 - pillar) + ", " +
                              std::to_string(0.5 + pillar) + ", 1 } }", text);
-    m.mission.scenario.imu.on = imu;
+    m.mission.scenario.imus.resize(imu ? 1 : 0);
     return plan_error(m);
   };
   EXPECT_EQ(error(0.5, true), "");  // smoothed less, as times are the user's

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/formats/class_labels.h"
 #include "app/formats/recording_formats.h"
 #include "app/provenance/earlier_files.h"
 #include "io/scenes/pile_export.h"
@@ -16,14 +17,14 @@ namespace formats_test {
 
 // Each row names the key that sets its member, and no other row the same.
 TEST(Formats, HaveTheirKey) {
-  Scenario scenario;
-  const Schema schema = make_scenario_schema(scenario);
+  MissionForm form;
+  const Schema schema = make_scenario_schema(form);
   std::set<std::string> names, left;
   for (const RecordingFormat& format : recording_formats()) {
     const Key* const key = schema.find("outputs." + format.name);
     ASSERT_NE(key, nullptr) << format.name;
     for (const bool wanted : {true, false}) {
-      scenario.outputs.*format.wanted = wanted;
+      form.rest.outputs.*format.wanted = wanted;
       EXPECT_EQ(read_slot(key->bind(0)).boolean, wanted) << format.name;
     }
     EXPECT_TRUE(names.insert(format.name).second) << format.name;
@@ -52,6 +53,28 @@ TEST(Formats, LeaveNothingThatAnotherRunDoesNotKnow) {
   for (const char* name : {"pile.bin", "pile.stl", "pile.obj", "pile.mtl", "mission.simplemap",
                            "labels.csv", "flight.json", "preview.png", "groundtruth.txt"})
     EXPECT_TRUE(is_known(name)) << name;
+}
+
+// A number is an index of the legend, whatever the mission has besides.
+TEST(ClassLabels, AreIndicesOfTheLegend) {
+  const std::vector<PieceType> types{PieceType{"brick", {}, {}, {}}, PieceType{"slab", {}, {}, {}}};
+  EXPECT_EQ(ClassLabels({}, types).names(), (std::vector<std::string>{"sky", "ground", "brick", "slab"}));
+  for (int what = 0; what < 8; ++what) {
+    Scenario s;
+    s.robots.resize(what & 1 ? 2 : 0);
+    s.fines.amount = what & 2 ? 5 : 0;
+    s.surroundings.type = what & 4 ? SurroundingsType::street : SurroundingsType::none;
+    const ClassLabels labels(s, types);
+    const std::vector<std::string>& names = labels.names();
+    EXPECT_EQ(names.at(labels.of_type(1)), "slab");
+    if (what & 1) {
+      EXPECT_EQ(names.at(labels.of_robots()), "robot");
+    }
+    for (int k = 0; k < kFineKinds && (what & 2); ++k)
+      EXPECT_EQ(names.at(labels.of(FineKind(k))), fine_names()[std::size_t(k)]);
+    for (std::size_t k = 0; k < surrounding_names().size() && (what & 4); ++k)
+      EXPECT_EQ(names.at(labels.of(SurroundingKind(k))), surrounding_names()[k]);
+  }
 }
 
 }  // namespace formats_test

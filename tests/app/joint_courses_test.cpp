@@ -3,7 +3,8 @@
 
 #include "app/drive/robots/joint_courses.h"
 #include "kernel/base/error.h"
-#include "kernel/robot/bundled.h"
+#include "scripting/robots/crawler.h"
+#include "scripting/robots/vine.h"
 
 namespace rubble {
 namespace joint_courses_test {
@@ -22,10 +23,10 @@ class JointCoursesOfACrawler : public ::testing::Test {
     }
   }
   double at(double time, std::size_t joint = 0) const {
-    RobotWish wish;
-    courses_.ask(time, wish);
-    for (std::size_t i = 0; i < wish.joints.size(); ++i)
-      if (wish.joint_names[i] == names_[joint]) return wish.joints[i];
+    RobotLeg leg;
+    courses_.ask(time, leg);
+    for (std::size_t i = 0; i < leg.joints.size(); ++i)
+      if (leg.joint_names[i] == names_[joint]) return leg.joints[i];
     return -100;
   }
   std::string mistake(const JointTrajectoryCommand& trajectory) {

@@ -124,7 +124,7 @@ TEST(Library, SaysWhatItCannotGive) {
     return shell(scratch, "cmake -S . -B out -DCMAKE_PREFIX_PATH=\"$PWD/there\" -DWANTED='" + wanted + "'");
   };
   EXPECT_NE(configure("0.1;REQUIRED;COMPONENTS;kernel").find("exit 0\n"), std::string::npos);
-  EXPECT_NE(configure("0.1;REQUIRED;COMPONENTS;renderer").find("no component renderer; expected kernel, files or voids"), std::string::npos);
+  EXPECT_NE(configure("0.1;REQUIRED;COMPONENTS;renderer").find("no component renderer; expected kernel, robots, files or voids"), std::string::npos);
   EXPECT_NE(configure("0.2;REQUIRED").find("with requested version \"0.2\""), std::string::npos);
 }
 

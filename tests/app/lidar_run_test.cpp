@@ -285,8 +285,8 @@ TEST(LidarInput, MistakesAreNamed) {
   expect("lidars = { top = { channels = 64 } }", "lidars.top.channels: this model has a fixed number");
   expect("lidars = { top = { model = \"os1\", columns = 600 } }", "lidars.top.columns: the model has no such version");
   expect("lidars = { top = { min_range = 50, max_range = 20 } }", "lidars.top.max_range: the range is empty");
-  expect("lidars = { Top = {} }", "lidars.Top: not a name of a LiDAR");
-  expect("lidars = { a = { topic = \"/imu\" } }", "lidars.a.topic: the name is taken");
+  expect("lidars = { Top = {} }", "lidars.Top: not a name of a sensor");
+  expect("imu = true, lidars = { a = { topic = \"/imu\" } }", "lidars.a.topic: the name is taken");
   expect("outputs = { pcd = true }", "outputs.pcd: there is nothing to write");
 }
 

@@ -26,7 +26,7 @@ const char* const kMix =
 
 std::map<std::string, int> count(const Mission& mission, const AssetLibrary& assets) {
   std::map<std::string, int> counts;
-  for (const Layer& layer : generate_pile(build_pile_spec(mission.scenario, assets)).layers)
+  for (const Layer& layer : generate_pile(build_pile_spec(mission.scenario.pile, mission.scenario.seed, assets)).layers)
     for (const Placement& piece : layer.pieces)
       ++counts[assets.types[std::size_t(piece.type)].name];
   return counts;

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "app/card/card_parts.h"
+#include "app/card/slam_settings.h"
 #include "app/card/splits.h"
 #include "kernel/base/error.h"
 #include "tests/app/program.h"
@@ -190,6 +192,50 @@ TEST_F(Pack, TheCardOfARigHasItsCamerasAndUnits) {
   EXPECT_TRUE(fs::exists(folder + "/settings/openvins/estimator_config.yaml"));
   EXPECT_IN("update_rate: 150", read_file(folder + "/settings/kalibr/imu.yaml"));
   EXPECT_IN("rostopic: /inside", read_file(folder + "/settings/kalibr/imu.yaml"));
+  EXPECT_IN("/inside.linear_acceleration.x", read_file(folder + "/settings/foxglove.json"));
+}
+
+// A camera on the rig, and one beside a unit on a robot.
+Scenario rig_and_robot() {
+  Scenario s;
+  s.cameras.assign(2, MountedCamera{});
+  s.cameras[0].name = "high", s.cameras[1].name = "low";
+  s.cameras[0].named = s.cameras[1].named = true;
+  s.cameras[1].ride.robot = "tank";
+  s.imus.emplace_back();
+  s.imus[0].name = "unit", s.imus[0].named = true, s.imus[0].ride.robot = "tank";
+  return s;
+}
+
+TEST(Settings, AreOfTheFirstCameraThatHasAUnit) {
+  Scenario s = rig_and_robot();
+  auto files = make_slam_settings(s);
+  EXPECT_IN("rostopic: /low/rgb/image_raw", files["kalibr/camchain.yaml"]);
+  EXPECT_IN("rostopic: /unit", files["kalibr/imu.yaml"]);
+  EXPECT_IN("camera_name: low", files["camera.yaml"]);
+  EXPECT_EQ(files.count("openvins/estimator_config.yaml"), 1u);
+  // A rig that rides on the same link moves with it, too.
+  s.trajectory.ride.robot = "tank", s.trajectory.ride.link = "base_link", s.trajectory.ride.position = {0.3, 0, 0.2};
+  s.imus[0].position = {0.1, 0, 0};
+  EXPECT_IN("rostopic: /low/rgb/image_raw", make_slam_settings(s)["kalibr/camchain.yaml"]);
+  files = make_slam_settings(s, {{"tank", "base_link"}});
+  EXPECT_IN("rostopic: /high/rgb/image_raw", files["kalibr/camchain.yaml"]);
+  // The unit is 0.2 m behind the camera and 0.2 m below.
+  EXPECT_IN("T_cam_imu:\n  - [0.0, -1.0, 0.0, 0.0]\n  - [0.0, 0.0, -1.0, 0.2]\n  - [1.0, 0.0, 0.0, -0.2]", files["kalibr/camchain.yaml"]);
+  s.imus.clear();
+  files = make_slam_settings(s);
+  EXPECT_IN("rostopic: /high/rgb/image_raw", files["kalibr/camchain.yaml"]);
+  EXPECT_EQ(files.count("openvins/estimator_config.yaml") + files.count("kalibr/imu.yaml"), 0u);
+}
+
+TEST(Card, NamesNoFileThatTheMissionDoesNotAskFor) {
+  Scenario s = rig_and_robot();
+  EXPECT_IN(", on `tank` |", describe_sensors(s, 4));
+  EXPECT_IN("`cameras/NAME/groundtruth.txt`", describe_truth(s, true));
+  EXPECT_IN("as a mesh", describe_truth(s, true));
+  s.outputs.groundtruth = s.outputs.stl = false;
+  for (const char* part : {"groundtruth.txt", "mesh"}) EXPECT_EQ(describe_truth(s, true).find(part), std::string::npos) << part;
+  EXPECT_EQ(describe_truth(s, false).find("at each stamp"), std::string::npos) << "of a pile alone";
 }
 
 // The unit and the camera at places and turns of their own, and topics that the mission names.

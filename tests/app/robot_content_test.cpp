@@ -28,7 +28,7 @@ class RobotContents : public ::testing::Test {
     scenario_.robots[1].urdf = "r.urdf";
     made_.scenario = scenario_to_json(scenario_);
     AssetLibrary library;
-    add_robot_files(scenario_, {folder_.path().string()}, library);
+    add_robot_files(scenario_.robots, {folder_.path().string()}, library);
     made_.robots = library.robots;
   }
 

@@ -13,8 +13,9 @@
 #include "app/session/session.h"
 #include "io/state/track_file.h"
 #include "kernel/base/error.h"
-#include "kernel/robot/bundled.h"
+#include "scripting/robots/rover.h"
 #include "tests/app/program.h"
+#include "tests/scripting/robot_figures.h"
 
 namespace rubble::testing {
 namespace robot_drive_test {
@@ -49,7 +50,7 @@ struct Driven {
     return options;
   }
   // Frames 1 to `frames`, at 30 Hz; the wish by the frame.
-  void go(int frames, const std::function<RobotWish(int)>& wish) {
+  void go(int frames, const std::function<TeleopCommand(int)>& wish) {
     for (int i = 1; i <= frames; ++i) drive->advance(wish(i), i / 30.0);
   }
 
@@ -75,8 +76,8 @@ TEST(RobotDrive, ACrawlerThatIsDrivenIntoBricksRunsAgainWithTheSameBits) {
   Driven driven(scratch, "tank");
   const Vec3 start = driven.drive->world_from_rig().translation;
   driven.go(75, [](int i) {
-    RobotWish wish;
-    wish.forward = i < 60 ? 1 : 0, wish.yaw = i > 30 ? 0.4 : 0, wish.pitch = i % 7 == 0 ? -1 : 0;
+    TeleopCommand wish;
+    wish.forward = i < 60 ? 1 : 0, wish.yaw = i > 30 ? 0.4 : 0, wish.pitch = i % 7 == 0 ? 1 : 0;
     wish.linear.x = i == 70 ? 0.123456789 : 0;
     return wish;
   });
@@ -90,7 +91,7 @@ TEST(RobotDrive, ASnakeAndAVineToo) {
     Driven driven(scratch, robot);
     const Vec3 start = driven.drive->world_from_rig().translation;
     driven.go(60, [](int i) {
-      RobotWish wish;
+      TeleopCommand wish;
       wish.forward = i < 50 ? 1 : 0, wish.yaw = i > 40 ? 1 : 0;
       return wish;
     });
@@ -109,7 +110,7 @@ TEST(RobotDrive, ARobotFromAFileTakesItsFileAlong) {
       right_wheels = { "front_right_wheel_joint", "rear_right_wheel_joint" }, wheel_radius = 0.098 } },
     camera = { width = 32, height = 32 }, outputs = { bag = false, rawlog = false, simplemap = false } })");
   driven.go(30, [](int) {
-    RobotWish wish;
+    TeleopCommand wish;
     wish.linear.x = 0.4, wish.angular.z = 0.3;
     return wish;
   });
@@ -117,25 +118,11 @@ TEST(RobotDrive, ARobotFromAFileTakesItsFileAlong) {
   expect_same_bits(scratch, driven, "elsewhere/");
 }
 
-// As /joint_trajectory asks: all motors at once, here the flippers.
-TEST(RobotDrive, JointsGoWhereTheyAreAskedTo) {
-  const ScratchFolder scratch;
-  Driven driven(scratch, "tank");
-  driven.go(60, [](int) {
-    RobotWish wish;
-    wish.joints = {0.25, 0.5, 0.75, 0.5};
-    return wish;
-  });
-  const Scenario kept = driven.drive->scenario(driven.mission.scenario);
-  EXPECT_EQ(kept.robots[0].drive.back().joints, (std::vector<double>{0.25, 0.5, 0.75, 0.5}));
-  expect_same_bits(scratch, driven);
-}
-
 // Named joints alone, while the belts go on; the mission that is kept says so.
 TEST(RobotDrive, ATrajectoryMovesNamedJointsAndRunsAgainWithTheSameBits) {
   const ScratchFolder scratch;
   Driven driven(scratch, "tank");
-  RobotWish wish;
+  TeleopCommand wish;
   wish.linear.x = 0.3;
   driven.go(15, [&](int) { return wish; });
   driven.drive->follow({{"rear_right_flipper_joint", "front_left_flipper_joint"},
@@ -157,7 +144,7 @@ TEST(RobotDrive, AfterARestartItStandsWhereItBegan) {
   Driven driven(scratch, "");
   const Pose start = driven.drive->world_from_rig();
   driven.go(20, [](int) {
-    RobotWish wish;
+    TeleopCommand wish;
     wish.forward = 1;
     return wish;
   });
@@ -190,8 +177,8 @@ std::string bytes_of(const Sample& sample) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   };
   add(stamp_of(sample));
-  if (const auto* scan = std::get_if<LidarScan>(&sample))
-    for (const LidarPoint& p : scan->points) add(p.x), add(p.y), add(p.z), add(p.intensity), add(p.time), add(p.ring);
+  if (const auto* reading = std::get_if<Reading>(&sample); reading && reading->scan)
+    for (const ScanPoint& p : reading->scan->points) add(p.x), add(p.y), add(p.z), add(p.intensity), add(p.time), add(p.ring);
   if (const auto* reading = std::get_if<ImuSample>(&sample)) add(reading->angular_velocity), add(reading->linear_acceleration);
   if (const auto* robot = std::get_if<RobotSample>(&sample)) {
     add(robot->world_from_base);
@@ -214,7 +201,7 @@ TEST(RobotDrive, SensesWhatTheKeptMissionSenses) {
   })", true);
   std::vector<Sample> sensed;
   for (int i = 1; i <= 30; ++i) {
-    RobotWish wish;
+    TeleopCommand wish;
     wish.linear.x = 0.6, wish.angular.z = i > 15 ? 0.5 : 0;
     driven.drive->advance(wish, i / 30.0);
     for (Sample& sample : driven.drive->take_sensed()) sensed.push_back(std::move(sample));
@@ -230,7 +217,7 @@ TEST(RobotDrive, SensesWhatTheKeptMissionSenses) {
   ASSERT_EQ(sensed.size(), again.size());
   std::array<int, 8> kinds{};
   for (const Sample& sample : sensed) ++kinds[sample.index()];
-  EXPECT_GT(kinds[Sample(LidarScan()).index()], 30);
+  EXPECT_GT(kinds[Sample(Reading()).index()], 30);
   EXPECT_GT(kinds[Sample(ImuSample()).index()], 150);
   const auto in_order = [](const Sample& a, const Sample& b) { return stamp_of(a) < stamp_of(b); };
   std::stable_sort(sensed.begin(), sensed.end(), in_order);
@@ -276,32 +263,38 @@ TEST(RobotDrive, MistakesAreNamed) {
   EXPECT_EQ(mistake("rover_2", kWithFunction), "") << "what is driven has no need of its function";
 }
 
+// The command after `last` from `time` on.
+RobotLeg steer(const RobotItem& robot, const TeleopCommand& asked, const RobotLeg& last, double time, double seconds) {
+  RobotLeg leg = last;
+  leg.t = time;
+  kind_of(robot).steer(asked, robot, last, seconds, leg);
+  return leg;
+}
+
 // The waves of a snake go on from where they are when it is told to go faster, slower or to stop.
-TEST(RobotWish, AChangeOfRateKeepsThePhase) {
-  RobotItem snake;
-  snake.model = RobotKind::snake;
-  RobotLeg leg;
-  leg.rate = 0;
+TEST(Teleop, AChangeOfRateKeepsThePhase) {
+  const RobotItem snake = make_robot_item("snake");
+  RobotLeg leg = kind_of(snake).still(snake);
+  const auto phase_at = [](const RobotLeg& of, double time) { return number_of(of.figures, "rate") * time + number_of(of.figures, "phase"); };
   double time = 0;
   for (const double forward : {1.0, 0.5, 0.0, -1.0, 0.0}) {
-    RobotWish wish;
-    wish.forward = forward;
-    const RobotLeg next = make_leg(wish, snake, leg, time, 1.0 / 60);
-    EXPECT_NEAR(next.rate * time + next.phase, leg.rate * time + leg.phase, 1e-12);
-    EXPECT_EQ(next.rate, 4 * forward);
+    TeleopCommand asked;
+    asked.forward = forward;
+    const RobotLeg next = steer(snake, asked, leg, time, 1.0 / 60);
+    EXPECT_NEAR(phase_at(next, time), phase_at(leg, time), 1e-12);
+    EXPECT_EQ(number_of(next.figures, "rate"), 4 * forward);
     leg = next;
     time += 1.7;
   }
 }
 
-TEST(RobotWish, FlippersGoOnFromWhereTheyAre) {
-  RobotItem crawler;
-  crawler.model = RobotKind::crawler;
-  RobotWish wish;
-  wish.pitch = 1, wish.roll = -1, wish.forward = 0.5, wish.speed = 0.4;
-  wish.linear.x = 0.1;
-  RobotLeg leg = make_leg(wish, crawler, {}, 0, 1);
-  leg = make_leg(wish, crawler, leg, 1, 1);
+TEST(Teleop, FlippersGoOnFromWhereTheyAre) {
+  const RobotItem crawler = make_robot_item("crawler");
+  TeleopCommand asked;
+  asked.pitch = -1, asked.roll = -1, asked.forward = 0.5, asked.speed = 0.4;
+  asked.linear.x = 0.1;
+  RobotLeg leg = steer(crawler, asked, {}, 0, 1);
+  leg = steer(crawler, asked, leg, 1, 1);
   EXPECT_NEAR(leg.flippers_deg[0], 57.29577951308232 + 90, 1e-9);
   EXPECT_NEAR(leg.flippers_deg[3], 57.29577951308232 - 90, 1e-9);
   EXPECT_NEAR(leg.linear, 0.3, 1e-12);

@@ -315,7 +315,7 @@ class RobotsInTheFirstPile : public ::testing::Test {
     request.mission = RUBBLE_SOURCE_DIR "/scripts/robots/" + script;
     const ResolvedMission mission = resolve_mission(request, RunKind::run, context);
     static const std::string settled_as = pile_of(mission);
-    static const PileState settled = settle_in_memory(mission, context, [] { return true; }).state;
+    static const SettledPile settled = settle_in_memory(mission, context, [] { return true; });
     ASSERT_EQ(pile_of(mission), settled_as) << "the missions have one pile";
     RunFolder folder = RunFolder::create(scratch_ / "out", false);
     folder.begin(describe_unfinished(mission));

@@ -18,8 +18,8 @@
 #include "app/victims/place_victims.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/queries/queries.h"
-#include "kernel/robot/bundled.h"
-#include "kernel/robot/gaits.h"
+#include "kernel/robot/drive_commands.h"
+#include "scripting/robots/crawler.h"
 #include "kernel/robot/robot_run.h"
 #include "kernel/world/world_robots.h"
 #include "tests/app/program.h"
@@ -145,7 +145,7 @@ TEST(Victims, ArePushedByARobotThatIsHeavyEnough) {
     RobotRun run(make_laid_pile(settled.mission, settled.pile), settled.pile, options);
     RobotModel model = make_crawler();
     for (RobotLink& link : model.links) link.mass *= mass, link.inertia = link.inertia * mass;
-    run.add(model, start, [&](const RobotSense&) { return drive_tracks(model, {speed, 0}, {1, 1, 1, 1}); });
+    run.add(model, start, [&](const RobotSense&) { return drive_sides(model, speed, 0, {1, 1, 1, 1}); });
     Push push;
     run.run([&](double) {
       for (const RobotContact& contact : run.world().robots().contacts(0))

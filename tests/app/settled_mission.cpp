@@ -27,7 +27,7 @@ SettledMission settle_text(const std::string& script) {
 SettledMission settle(const Mission& mission) {
   SettledMission m{mission, {}, {}, {}};
   m.assets = load_assets(m.mission, {});
-  m.pile = generate_pile(build_pile_spec(m.mission.scenario, m.assets));
+  m.pile = generate_pile(build_pile_spec(m.mission.scenario.pile, m.mission.scenario.seed, m.assets));
   SettleOptions options = m.mission.scenario.settle;
   options.threads = 1;
   m.state = settle_pile(m.pile, options);

@@ -169,7 +169,7 @@ TEST(SurroundingsRun, DepthAndLabelsAreThoseOfTheTrueMeshes) {
   EXPECT_GT(seen, 2000);
   EXPECT_GE(kinds.size(), 4u);
   EXPECT_LE(apart, seen / 100) << "of " << seen;
-  const std::vector<std::string> names = label_names(scenario, settled.mission.assets);
+  const std::vector<std::string> names = ClassLabels(scenario, settled.mission.assets.types).names();
   int counted = 0;
   for (const SceneInstance& instance : scene.instances) {
     if (!instance.surrounds) continue;
@@ -203,9 +203,9 @@ TEST(SurroundingsRun, StreetLampsLightTheStreet) {
   const Eye eye = towards_the_street();
   EXPECT_GT(mean_light(lit_street()), 5 * mean_light(render(dark, eye)));
   scenario.surroundings.lamps = StreetLampState::automatic;
-  scenario.light.sky.type = SkyType::clear, scenario.light.spec.elevation_deg = 30;
+  scenario.lights[0].sky.type = SkyType::clear, scenario.lights[0].spec.elevation_deg = 30;
   EXPECT_FALSE(is_dark(scenario));
-  scenario.light.spec.elevation_deg = -2;
+  scenario.lights[0].spec.elevation_deg = -2;
   EXPECT_TRUE(is_dark(scenario));
 }
 
@@ -330,7 +330,7 @@ TEST(SurroundingsRun, TheReferenceTracesThem) {
   const Settled& settled = settled_here();
   PileState pile = settled.pile;
   Scenario scenario = settled.mission.scenario;
-  scenario.light.sky.type = SkyType::overcast, scenario.light.spec.elevation_deg = 40;
+  scenario.lights[0].sky.type = SkyType::overcast, scenario.lights[0].spec.elevation_deg = 40;
   lay_surroundings(scenario, settled.mission.assets, pile);
   const Scene scene = build_scene(scenario, settled.mission.assets, pile);
   Eye eye = towards_the_street();

@@ -106,7 +106,7 @@ TEST(Terrain, AMeshOfAFileIsTerrainToo) {
   EXPECT_EQ(assets.contents.back().pack, "terrain of the mission");
   SettleOptions options = mission.scenario.settle;
   options.threads = 1;
-  const PileState state = settle_pile(generate_pile(build_pile_spec(mission.scenario, assets)), options);
+  const PileState state = settle_pile(generate_pile(build_pile_spec(mission.scenario.pile, mission.scenario.seed, assets)), options);
   EXPECT_TRUE(state.settled);
   for (std::size_t i = 1; i < state.pieces.size(); ++i) {
     const Vec3 p = state.pieces[i].world_from_body.translation;

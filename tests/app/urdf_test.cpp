@@ -6,6 +6,7 @@
 
 #include "kernel/geometry/shape.h"
 #include "kernel/robot/looks.h"
+#include "scripting/robots/robot_kind.h"
 #include "tests/app/urdf_robots.h"
 
 namespace rubble::testing {
@@ -113,12 +114,11 @@ TEST(Urdf, JointsStartWithinRangesWithoutZeroAndWhereTheMissionPutsThem) {
 
 TEST(Urdf, BundledRobotsStartWhereTheMissionPutsThem) {
   MeshImporter importer;
-  RobotItem item;
-  item.model = RobotKind::crawler;
+  RobotItem item = make_robot_item("crawler");
   const std::string flipper = make_mission_robot(item, {}, "robots[1]", importer).model.joints.back().name;
   item.start = {{flipper, 0.4}};
   EXPECT_EQ(make_mission_robot(item, {}, "robots[1]", importer).model.joints.back().start, 0.4);
-  item.model = RobotKind::vine;
+  item.model = make_robot_item("vine").model;
   EXPECT_THROW(make_mission_robot(item, {}, "robots[1]", importer), InputError);
 }
 

@@ -6,8 +6,8 @@
 
 #include "app/robots/robot_files.h"
 #include "io/robot/urdf_writer.h"
-#include "kernel/robot/bundled.h"
-#include "kernel/robot/gaits.h"
+#include "kernel/robot/drive_commands.h"
+#include "scripting/robots/rover.h"
 #include "kernel/robot/odometry.h"
 #include "kernel/world/world_robots.h"
 #include "tests/app/urdf_robots.h"
@@ -94,7 +94,7 @@ TEST(Urdf, ARoverFromAFileDrivesAsTheBundledOne) {
     world.set_step(1.0 / 240, 4);
     const int robot = world.robots().add(*models[k], {{}, {0, 0, 0.001}});
     for (int i = 0; i < 480; ++i) {
-      world.robots().set_command(robot, drive_wheels(*models[k], {0.5, 0}));
+      world.robots().set_command(robot, drive_sides(*models[k], 0.5, 0));
       world.step();
     }
     way[k] = world.robots().state(robot).links[0].world_from_link.translation.x;

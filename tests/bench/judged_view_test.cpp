@@ -82,7 +82,7 @@ class JudgedViewTest : public ::testing::Test {
     const Mission mission = load_mission_text(kMission, "judged.lua", changes);
     assets_ = load_assets(mission, {});
     const PileState pile =
-        settle_pile(generate_pile(build_pile_spec(mission.scenario, assets_)), mission.scenario.settle);
+        settle_pile(generate_pile(build_pile_spec(mission.scenario.pile, mission.scenario.seed, assets_)), mission.scenario.settle);
     JudgeOptions options;
     options.size = 24, options.samples = 4;
     return JudgedView(mission.scenario, assets_, pile, options);

@@ -8,5 +8,8 @@ using namespace rubble;
 void fuzz_one(std::string_view bytes) {
   const std::string path =
       fuzz::folder().write("fines.bin", fuzz::seal("RUBFINE\n", kFinesVersion, bytes));
-  fuzz::knock([&] { make_fine_heaps(load_fines(path, 5)); });
+  fuzz::knock([&] {
+    Fines fines = load_fines(path, 5);
+    heap_fines(fines);
+  });
 }

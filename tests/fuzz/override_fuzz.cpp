@@ -6,10 +6,10 @@ using namespace rubble;
 
 // As load_mission_text does with each --set, without a script before it.
 void fuzz_one(std::string_view bytes) {
-  Scenario scenario;
-  const Schema schema = make_scenario_schema(scenario);
+  MissionForm form;
+  const Schema schema = make_scenario_schema(form);
   std::vector<Diagnostic> mistakes;
   apply_override(schema, std::string(bytes), mistakes);
-  if (mistakes.empty() && find_mistakes(scenario).empty())
-    fuzz::knock([&] { scenario_from_json(scenario_to_json(scenario), "again"); });
+  if (mistakes.empty() && find_mistakes(form).empty())
+    fuzz::knock([&] { scenario_from_json(scenario_to_json(form.normalized()), "again"); });
 }

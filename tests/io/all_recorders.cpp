@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "io/datasets/colmap_recorder.h"
+#include "io/datasets/dataset_recorders.h"
 #include "io/datasets/euroc_recorder.h"
 #include "io/datasets/frames_recorder.h"
 #include "io/datasets/tum_recorder.h"
@@ -54,6 +55,10 @@ std::vector<RecorderKind> all_recorders(int total_frames) {
       {"euroc", [=](const auto& p) { return make_euroc_recorder(p, full, 2); }},
       {"colmap", [=](const auto& p) { return make_colmap_recorder(p, full, 2); }},
       {"frames", [=](const auto& p) { return make_frames_recorder(p, full, 2); }},
+      {"kitti_odometry", [=](const auto& p) { return make_kitti_odometry_recorder(p, full, 2); }},
+      {"nerfstudio", [=](const auto& p) { return make_nerfstudio_recorder(p, full, {}, 2); }},
+      {"coco", [=](const auto& p) { return make_coco_recorder(p, full, 2); }},
+      {"webdataset", [=](const auto& p) { return make_webdataset_recorder(p, full, 2); }},
       {"trajectory", [](const auto& p) { return make_tum_trajectory_recorder(p); }},
       {"contact_sheet", [=](const auto& p) { return make_contact_sheet_recorder(p, sheet); }},
   };

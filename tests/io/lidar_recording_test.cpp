@@ -16,38 +16,39 @@ namespace rubble {
 namespace lidar_recording_test {
 
 // Three LiDARs that see the same two echoes; ring 1 of two, column 3 of eight.
-Recording three_lidars() {
-  Recording recording;
-  for (const LidarPattern pattern : {LidarPattern::spinning, LidarPattern::rosette, LidarPattern::planar}) {
-    LidarRecord lidar;
-    lidar.name = "lidar" + std::to_string(recording.lidars.size());
-    lidar.rig_from_lidar.translation = {0.1, 0.2, 0.3};
-    lidar.spec.pattern = pattern;
-    lidar.spec.elevations_deg = {-1, 1};
-    if (pattern == LidarPattern::planar) lidar.spec.elevations_deg = {0};
-    lidar.spec.delays_ns.assign(lidar.spec.elevations_deg.size(), 0);
-    lidar.spec.columns = 8, lidar.spec.column_ns = 10'000'000;
-    lidar.spec.first_azimuth_deg = pattern == LidarPattern::planar ? -78.75 : 180;
-    lidar.spec.span_deg = pattern == LidarPattern::planar ? 180 : -360;
-    lidar.spec.returns = LidarReturns::dual;
-    recording.lidars.push_back(lidar);
-  }
-  return recording;
+ScanObservation two_echoes(LidarPattern pattern, bool regular = true) {
+  LidarSpec spec;
+  spec.pattern = pattern, spec.regular = regular;
+  spec.elevations_deg = {-1, 1};
+  if (spec.planar()) spec.elevations_deg = {0};
+  spec.delays_ns.assign(spec.elevations_deg.size(), 0);
+  spec.columns = 8, spec.column_ns = 10'000'000;
+  spec.first_azimuth_deg = spec.planar() ? -78.75 : 180;
+  spec.span_deg = spec.planar() ? 180 : -360;
+  spec.returns = LidarReturns::dual;
+  RangeScan scan;
+  scan.spec = std::make_shared<const LidarSpec>(spec);
+  scan.stamp_ns = 1'500'000'000;
+  const auto ring = std::uint16_t(spec.planar() ? 0 : 1);
+  scan.points = {{3, 4, 0, 50, 0.03f, ring, 3}, {6, 8, 0, 20, 0.03f, ring, 3}};
+  return {std::make_shared<const RangeScan>(scan)};
 }
 
-LidarScan two_echoes(int sensor) {
-  LidarScan scan;
-  scan.stamp_ns = 1'500'000'000, scan.sensor = sensor;
-  const auto ring = std::uint16_t(sensor == 2 ? 0 : 1);
-  scan.points = {{3, 4, 0, 50, 0.03f, ring, 3}, {6, 8, 0, 20, 0.03f, ring, 3}};
-  return scan;
+// Its file, with an observation of each.
+void write_scans(const std::string& path, const std::vector<ScanObservation>& scans) {
+  RawlogOptions options;
+  for (const ScanObservation& scan : scans)
+    options.recording.sensors.push_back({"lidar" + std::to_string(options.recording.sensors.size()), "", "", "", {{}, {0.1, 0.2, 0.3}},
+                                         std::make_shared<test::FixedObservation>(scan)});
+  const auto recorder = make_rawlog_recorder(path, options);
+  for (int i = 0; i < int(scans.size()); ++i) recorder->write_reading({i, 1'500'000'000, {}});
+  recorder->finish();
 }
 
 TEST(LidarRawlog, MrptReadsRangesPointsAndPlaces) {
   test::ScratchFolder folder;
-  const auto recorder = make_rawlog_recorder(folder / "mission.rawlog", {0, 0.001, three_lidars()});
-  for (int i = 0; i < 3; ++i) recorder->write_lidar(two_echoes(i));
-  recorder->finish();
+  write_scans(folder / "mission.rawlog",
+              {two_echoes(LidarPattern::spinning), two_echoes(LidarPattern::rosette), two_echoes(LidarPattern::planar)});
 
   mrpt::io::CFileGZInputStream file(folder / "mission.rawlog");
   auto archive = mrpt::serialization::archiveFrom(file);
@@ -67,11 +68,7 @@ TEST(LidarRawlog, MrptReadsRangesPointsAndPlaces) {
   EXPECT_NEAR(rotating->sweepDuration, 0.07, 1e-9);
 
   // Beams of its own have no place in a matrix.
-  Recording own = three_lidars();
-  own.lidars[0].spec.regular = false;
-  const auto other = make_rawlog_recorder(folder / "own.rawlog", {0, 0.001, own});
-  other->write_lidar(two_echoes(0));
-  other->finish();
+  write_scans(folder / "own.rawlog", {two_echoes(LidarPattern::spinning, false)});
   mrpt::io::CFileGZInputStream own_file(folder / "own.rawlog");
   auto own_archive = mrpt::serialization::archiveFrom(own_file);
   EXPECT_TRUE(std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(own_archive.ReadObject()));

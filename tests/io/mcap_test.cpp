@@ -1,11 +1,20 @@
 // MCAP files through Foxglove's readers, and the CDR of every message against Fast-CDR's.
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <map>
+
 #include "io/base/atomic_file.h"
+#include "io/base/little_endian.h"
+#include "io/ros/mcap_format.h"
 #include "io/ros/mcap_recorder.h"
+#include "io/ros/ros_message_reader.h"
+#include "io/ros/vector_colours.h"
 #include "kernel/base/error.h"
+#include "render/streams/image_streams.h"
 #include "tests/io/fast_cdr.h"
 #include "tests/io/ros_expectation.h"
+#include "tests/io/support.h"
 
 namespace rubble {
 namespace mcap_test {
@@ -63,6 +72,87 @@ TEST(McapWriter, GivesTheSameBytesForAnyNumberOfThreads) {
     if (threads == 1) first = bytes;
     EXPECT_TRUE(bytes == first) << threads << " threads";
   }
+}
+
+// Readers take the channels of the first schema of a type: one schema for each type, or they miss topics.
+TEST(McapWriter, HasOneSchemaForEachType) {
+  ScratchFolder folder;
+  McapWriter writer(folder / "a.mcap", McapCompression::none, 1);
+  writer.add_channel({"/a", "std_msgs/msg/First", "int32 first", ""});
+  writer.add_channel({"/b", "std_msgs/msg/Second", "int32 second", ""});
+  const auto third = writer.add_channel({"/c", "std_msgs/msg/First", "int32 first", ""});
+  writer.write(third, 5, "message");
+  writer.write(0, 3, "message");
+  writer.finish();
+  const std::string bytes = test::read_text(folder / "a.mcap");
+  std::vector<std::pair<int, std::string>> schemas, channels;  // number, or that of the schema, and name
+  std::string_view left = std::string_view(bytes).substr(8);
+  std::uint8_t opcode = 0;
+  for (std::uint64_t size = 0; opcode != mcap::kDataEnd && take(left, opcode) && take(left, size); left.remove_prefix(size)) {
+    std::string_view content = left.substr(0, size);
+    std::uint16_t number = 0;
+    std::uint32_t length = 0;
+    take(content, number);
+    if (opcode == mcap::kChannel) take(content, number);
+    take(content, length);
+    if (opcode == mcap::kSchema) schemas.emplace_back(number, content.substr(0, length));
+    if (opcode == mcap::kChannel) channels.emplace_back(number, content.substr(0, length));
+  }
+  EXPECT_EQ(schemas, (decltype(schemas){{1, "std_msgs/msg/First"}, {2, "std_msgs/msg/Second"}}));
+  EXPECT_EQ(channels, (decltype(channels){{1, "/a"}, {2, "/b"}, {1, "/c"}}));
+  const McapSummary summary = writer.summary();
+  EXPECT_EQ(summary.counts, (std::vector<std::uint32_t>{1, 0, 1}));
+  EXPECT_EQ(summary.first_ns, 3);
+  EXPECT_EQ(summary.last_ns, 5);
+}
+
+// What rosbag2 and its readers look for; tests/datasets has a reader of others.
+TEST(McapRecorder, LeavesTheMetadataOfABag) {
+  ScratchFolder folder;
+  write_mcap(folder, kVariants[0]);
+  const std::string yaml = test::read_text(folder / "metadata.yaml");
+  for (const char* part : {"rosbag2_bagfile_information:\n  version: 5\n", "  storage_identifier: mcap\n",
+                           "    nanoseconds: 99999999\n", "    nanoseconds_since_epoch: 1000000000\n",
+                           "        name: /camera/rgb/image_raw\n        type: sensor_msgs/msg/Image\n",
+                           "      message_count: 4\n", "durability: 1", "  relative_file_paths:\n    - \"mission.mcap\"\n"})
+    EXPECT_NE(yaml.find(part), std::string::npos) << part << yaml;
+}
+
+// What viewers show that know no picture of two or three floats.
+TEST(McapRecorder, GivesVectorsAsColoursWhereWanted) {
+  ScratchFolder folder;
+  RosOptions options{RosDepth::metres, RosPictures::raw, test::full_recording()};
+  options.vector_colours = true;
+  const auto recorder = make_mcap_recorder(folder / "mission.mcap", options, McapCompression::none, 1);
+  test::write_full(*recorder, 0);
+  recorder->finish();
+  const Frame frame = test::make_full_frame(0);
+  const std::size_t bytes = 3 * frame.depth.size();
+  std::map<std::string, std::string> pictures;
+  rubble::read_mcap(folder / "mission.mcap", [&](const RosMessage& message) {
+    if (message.topic.find("/ground_truth/") == 0) pictures[std::string(message.topic)] = message.bytes;
+    return true;
+  });
+  EXPECT_EQ(pictures.count("/ground_truth/normals/image") + pictures.count("/ground_truth/flow/image"), 0u);
+  EXPECT_EQ(pictures.count("/ground_truth/instance/image"), 1u);  // a number is no vector
+  for (const char* name : {"normals", "flow"}) {
+    const std::string& message = pictures["/ground_truth/" + std::string(name) + "/colours/image"];
+    ASSERT_GT(message.size(), bytes) << name;
+    EXPECT_NE(message.find("rgb8"), std::string::npos);
+    const auto colours = colour_vectors(*find_image_stream(name), frame.get<float>(name), frame.intrinsics.width);
+    ASSERT_EQ(colours.size(), bytes);
+    EXPECT_EQ(message.substr(message.size() - bytes), std::string(colours.begin(), colours.end())) << name;
+  }
+}
+
+TEST(VectorColours, AreThoseThatTheDocumentsSay) {
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  using Bytes = std::vector<std::uint8_t>;
+  EXPECT_EQ(colour_vectors(*find_image_stream("normals"), {0, 0, -1, 1, -1, 0, none, 0, 0}, 3), (Bytes{128, 128, 0, 255, 0, 128, 0, 0, 0}));
+  // Still, a full colour to the right and far to the right, half a colour to the left, a third of a turn, unknown.
+  EXPECT_EQ(colour_vectors(*find_image_stream("flow"), {0, 0, 10, 0, 99, 0, -5, 0, -10, 17.3205081f, 0, none}, 160),
+            (Bytes{255, 255, 255, 255, 0, 0, 255, 0, 0, 128, 255, 255, 0, 255, 0, 0, 0, 0}));
+  EXPECT_EQ(colour_vectors(*find_image_stream("position"), {0.2f, -0.2f, 7.6f}, 1), (Bytes{51, 204, 153}));
 }
 
 TEST(McapWriter, RefusesNegativeStamps) {

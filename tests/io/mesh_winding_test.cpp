@@ -5,6 +5,7 @@
 
 #include <cstring>
 
+#include "io/base/atomic_file.h"
 #include "io/mesh/mesh_file.h"
 #include "kernel/base/error.h"
 #include "tests/io/support.h"

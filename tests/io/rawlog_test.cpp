@@ -238,19 +238,6 @@ TEST(Rawlog, OdometryThatDoesNotTurnHasNoVelocities) {
   EXPECT_EQ(found, (std::vector<bool>{false, false, false, true, true}));
 }
 
-// One observation, whatever the reading.
-class FixedObservation : public ReadingFormat {
- public:
-  explicit FixedObservation(RawlogObservation observation) : observation_(std::move(observation)) {}
-  std::vector<ReadingColumn> columns() const override { return {}; }
-  std::vector<Topic> topics() const override { return {}; }
-  std::string message(std::size_t, ros::Version, const ros::Header&, const Reading&) const override { return ""; }
-  RawlogObservation observe(const Reading&) const override { return observation_; }
-
- private:
-  RawlogObservation observation_;
-};
-
 TEST(Rawlog, ReadingsOfSensorsAreMrptsObservations) {
   InertialObservation inertial;
   inertial.magnetic_field = {2e-5, 0, -4e-5}, inertial.orientation = {0.1, 0.2, 0.3, 0.9}, inertial.pressure = {100000};
@@ -263,7 +250,7 @@ TEST(Rawlog, ReadingsOfSensorsAreMrptsObservations) {
       {"inertial", inertial}, {"place", place}, {"bumper", std::monostate()}};
   RawlogOptions options;
   for (const auto& [name, observation] : sensors)
-    options.recording.sensors.push_back({name, "", "", "", {{}, {0.1, 0, 0.2}}, std::make_shared<FixedObservation>(observation)});
+    options.recording.sensors.push_back({name, "", "", "", {{}, {0.1, 0, 0.2}}, std::make_shared<test::FixedObservation>(observation)});
   const ScratchFolder folder;
   const auto recorder = make_rawlog_recorder(folder / "a.rawlog", options);
   constexpr std::int64_t kStamp = 3'723'500'000'000;  // 1 h 2 min 3.5 s

@@ -17,7 +17,7 @@ def odometry(m):
             "angular": triple(m.twist.twist.angular)}
 
 
-read = {"joints": [], "odom": [], "truth": [], "contacts": [], "description": [], "parents": {}}
+read = {"joints": [], "odom": [], "truth": [], "contacts": [], "description": [], "parents": {}, "poses": {}}
 bag = rosbag.Bag(sys.argv[1])
 for topic, m, time in bag.read_messages():
     for connection in bag._get_connections([topic]):
@@ -35,6 +35,8 @@ for topic, m, time in bag.read_messages():
                                  "torque": triple(m.wrench.torque)})
     elif topic == "/robot_description":
         read["description"].append(m.data)
+    elif topic.endswith("/ground_truth/pose"):
+        read["poses"].setdefault(topic, []).append([m.header.frame_id] + triple(m.pose.position))
     elif topic in ("/tf", "/tf_static"):
         for t in m.transforms:
             was = read["parents"].setdefault(t.child_frame_id, t.header.frame_id)

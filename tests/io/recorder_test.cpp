@@ -227,22 +227,22 @@ TEST(ContactSheet, ShowsTheScansOfALidarFromAbove) {
   options.total_frames = 2;
   options.tile = 96;
   options.columns = 2;
-  options.lidar = "scan";
+  options.scanner = "scan";
   const auto recorder = make_contact_sheet_recorder(folder / "preview.png", options);
   const auto scan_at = [](double x, int index, int sensor) {
-    LidarScan scan;
+    RangeScan scan;
     scan.stamp_ns = 1000 + index;
-    scan.sensor = sensor, scan.index = index;
-    scan.world_from_lidar = {Pose{Quat{}, {x, 0, 0.3}}};
-    LidarPoint post;
-    post.y = sensor == 0 ? 1.5F : -1.5F;  // only those of the first LiDAR are shown
+    scan.index = index;
+    scan.world_from_sensor = {Pose{Quat{}, {x, 0, 0.3}}};
+    ScanPoint post;
+    post.y = sensor == 0 ? 1.5F : -1.5F;  // only those of the first sensor are shown
     scan.points = {post};
-    return scan;
+    return Reading{sensor, scan.stamp_ns, {}, std::make_shared<const RangeScan>(scan)};
   };
-  recorder->write_lidar(scan_at(0, 0, 0));
-  recorder->write_lidar(scan_at(0, 0, 1));
+  recorder->write_reading(scan_at(0, 0, 0));
+  recorder->write_reading(scan_at(0, 0, 1));
   recorder->write(make_frame(0));
-  recorder->write_lidar(scan_at(4, 1, 0));
+  recorder->write_reading(scan_at(4, 1, 0));
   recorder->write(make_frame(1));
   recorder->finish();
   const RgbImage sheet = read_rgb_png(folder / "preview.png");

@@ -119,14 +119,13 @@ TEST(RobotTopics, WhatALinkCarriesHangsOnThatLink) {
   recording.cameras.resize(2);
   recording.cameras[0].link = "left_link", recording.cameras[0].optical = "left_optical";
   CameraRecord& carried = recording.cameras[1];
-  carried.topic = "/eye", carried.link = "eye_link", carried.optical = "eye_optical";
+  carried.topic = "/eye", carried.truth_topic = "/eye/ground_truth", carried.link = "eye_link", carried.optical = "eye_optical";
   carried.carrier = "wheel", carried.rig_from_camera.translation = {0.1, 0, 0};
   recording.imus.resize(2);
   recording.imus[0].frame_id = "rig_link";
   recording.imus[1].topic = "/eye_imu", recording.imus[1].frame_id = "eye_imu_link";
   recording.imus[1].carrier = "mast";
-  recording.lidars.resize(1);
-  recording.lidars[0].carrier = "base_link";
+  recording.sensors.push_back({"lidar", "/points", "lidar_link", "base_link", {}, std::make_shared<test::FixedObservation>(RawlogObservation())});
   const ScratchFolder folder;
   const auto recorder = make_rosbag_recorder(folder / "a.bag", of);
   for (int i = 0; i < 2; ++i) {
@@ -134,6 +133,7 @@ TEST(RobotTopics, WhatALinkCarriesHangsOnThatLink) {
     for (int camera = 1; camera >= 0; --camera) {  // the carried one first: the rig's pose comes with the other
       Frame frame = test::make_frame(i);
       frame.sensor = camera;
+      if (camera == 1) frame.world_from_camera.translation = {4, 5, 6.0 + i};
       recorder->write(frame);
     }
   }
@@ -146,6 +146,9 @@ TEST(RobotTopics, WhatALinkCarriesHangsOnThatLink) {
                         {"left_optical", "left_link"}, {"eye_link", "wheel"},     {"eye_optical", "eye_link"},
                         {"eye_imu_link", "mast"},    {"lidar_link", "base_link"}};
   EXPECT_EQ(Json::parse(read.output)["parents"], parents);
+  const Json poses = Json::parse(read.output)["poses"];
+  EXPECT_EQ(poses["/eye/ground_truth/pose"], Json({{"world", 4.0, 5.0, 6.0}, {"world", 4.0, 5.0, 7.0}}));
+  EXPECT_EQ(poses["/ground_truth/pose"].size(), 2U);
 }
 
 // Of two inertial units, that on the camera's carrier is the one of its files.
@@ -176,8 +179,10 @@ TEST_P(RobotCdr, MessagesEqualFastCdr) {
   EXPECT_EQ(ros::joint_state(kRos2, header_, names, q, u, effort), joints.bytes());
   FastCdr odometry;
   odometry.header(header_) << std::string("base_link");
-  odometry.pose(kStart) << std::array<double, 36>{};
-  odometry.vector({1, 2, 3}).vector({4, 5, 6}) << std::array<double, 36>{};
+  std::array<double, 36> exact{};
+  for (std::size_t axis = 0; axis < 6; ++axis) exact[7 * axis] = 1e-9;
+  odometry.pose(kStart) << exact;
+  odometry.vector({1, 2, 3}).vector({4, 5, 6}) << exact;
   EXPECT_EQ(ros::true_odometry(kRos2, header_, "base_link", kStart, {1, 2, 3}, {4, 5, 6}), odometry.bytes());
   RobotSample::Odometry reading{kStart, 0.5, -0.25, {{{4, 1, 2}, {1, 5, 3}, {2, 3, 6}}}, 7, 8};
   std::array<double, 36> of_pose{}, of_twist{};

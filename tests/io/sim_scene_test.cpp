@@ -20,7 +20,7 @@
 #include "io/robot/urdf_reader.h"
 #include "io/scenes/surface_heights.h"
 #include "kernel/base/portable_math.h"
-#include "kernel/robot/bundled.h"
+#include "scripting/robots/rover.h"
 #include "kernel/robot/looks.h"
 #include "kernel/robot/parts.h"
 #include "tests/io/all_recorders.h"

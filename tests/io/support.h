@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/recording/recorder.h"
@@ -55,6 +56,30 @@ CommandResult run_command(const std::string& command);
 // Runs a script of tests/io/node with the npm packages of package-lock.json, which are installed
 // first, into the build folder, when they are not; the network is needed only then.
 CommandResult run_node(const std::string& script, const std::string& arguments);
+
+// One observation, whatever the reading.
+class FixedObservation : public ReadingFormat {
+ public:
+  explicit FixedObservation(RawlogObservation observation) : observation_(std::move(observation)) {}
+  std::vector<ReadingColumn> columns() const override { return {}; }
+  std::vector<Topic> topics() const override { return {}; }
+  std::string message(std::size_t, ros::Version, const ros::Header&, const Reading&) const override { return ""; }
+  RawlogObservation observe(const Reading&) const override { return observation_; }
+
+ private:
+  RawlogObservation observation_;
+};
+
+// Of a sensor that scans in this way.
+class FixedScans : public FixedObservation {
+ public:
+  explicit FixedScans(LidarSpec spec) : FixedObservation({}), spec_(std::make_shared<const LidarSpec>(std::move(spec))) {}
+  double most_points() const override { return spec_->rays(); }
+  std::shared_ptr<const LidarSpec> scan_spec() const override { return spec_; }
+
+ private:
+  std::shared_ptr<const LidarSpec> spec_;
+};
 
 std::string read_text(const std::string& path);  // empty when there is none
 bool exists(const std::string& path);

@@ -5,6 +5,7 @@
 
 #include "kernel/settling/building_collapse.h"
 #include "kernel/settling/collapse.h"
+#include "kernel/structure/building.h"
 #include "kernel/world/world_structures.h"
 #include "tests/kernel/member_scenes.h"
 
@@ -98,7 +99,7 @@ TEST(Blast, LeavesTheFrameOnItsFeet) {
     world.step();
     collapse.after_step();
   }
-  const Structure s = make_damaged_building(b);
+  const Structure s = build_structures(b).damaged;
   int thrown_walls = 0;
   for (std::size_t i = 0; i < s.pieces.size(); ++i) {
     const Member& member = s.members[std::size_t(s.pieces[i].member)];

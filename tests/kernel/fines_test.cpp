@@ -93,7 +93,7 @@ Contact find_contact(const std::vector<Vec3>& corners, const PileQueries& bare, 
 TEST(Fines, AreNoneByDefault) {
   const Corner corner;
   EXPECT_TRUE(corner.strew(FinesSpec{}).empty());
-  EXPECT_TRUE(make_fine_heaps(Fines{}).empty());
+  EXPECT_TRUE(Fines{}.heaps().empty());
 }
 
 TEST(Fines, AreTheSameForAnyNumberOfThreadsAndOthersForAnotherSeed) {
@@ -211,7 +211,8 @@ TEST(Fines, AreClosedMeshesThatFaceOutwards) {
   FinesSpec spec;
   spec.amount = 600, spec.paper = 0.05, spec.cloth = 0.01, spec.drifts = 8, spec.cables = 2, spec.pipes = 2;
   std::array<int, kFineKinds> seen{};
-  for (const FineHeap& heap : make_fine_heaps(corner.strew(spec))) {
+  const Fines fines = corner.strew(spec);
+  for (const FineHeap& heap : fines.heaps()) {
     ++seen[std::size_t(heap.kind)];
     EXPECT_TRUE(is_closed(heap.mesh)) << fine_names()[std::size_t(heap.kind)];
     EXPECT_GT(calc_volume_properties(heap.mesh).volume, 0) << fine_names()[std::size_t(heap.kind)];

@@ -30,7 +30,7 @@ double cross_gap(bool flippers, double gap) {
   options.flipper_start = 0;
   const RobotModel model = make_crawler(options);
   const int robot = world.robots().add(model, {{}, {-0.5, 0, height + 0.001}});
-  drive(world, robot, 18, [&](double) { return drive_tracks(model, {0.1, 0}, {0, 0, 0, 0}); });
+  drive(world, robot, 18, [&](double) { return drive_sides(model, 0.1, 0, {0, 0, 0, 0}); });
   const Vec3 at = position_of(world, robot);
   return at.z > 0.9 * height ? at.x - gap : -1;  // how far beyond the trench; -1: it is in it
 }
@@ -77,7 +77,7 @@ class FieldDriver {
     const double fronts[] = {0.9, 0.6, 0.3}, rears[] = {0.3, -0.3, 0};
     const double front = steep ? 0.1 : fronts[tries_], rear = steep ? -0.5 : rears[tries_];
     const double speed = time < back_until_ ? -0.3 : 0.3;
-    return drive_tracks(model, {speed, -1.5 * std::atan2(ahead.y, ahead.x)}, {front, front, rear, rear});
+    return drive_sides(model, speed, -1.5 * std::atan2(ahead.y, ahead.x), {front, front, rear, rear});
   }
 
  private:
@@ -133,7 +133,7 @@ Pushed push_block(bool with_block) {
     if (with_block) now.way = world.piece(block).world_from_body.translation.x;
     return now;
   };
-  const auto forwards = [&](double) { return drive_wheels(model, {0.3, 0}); };
+  const auto forwards = [&](double) { return drive_sides(model, 0.3, 0); };
   drive(world, robot, 1.5, forwards);  // the block is met and moves as fast as the rover
   const Pushed from = measure();
   drive(world, robot, 4, forwards);

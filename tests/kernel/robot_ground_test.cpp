@@ -57,11 +57,11 @@ TEST(Crawler, SpinningTracksAccelerateItByFriction) {
   World world = make_robot_world();
   const RobotModel model = make_crawler(bare());
   const int robot = world.robots().add(model, {{}, {0, 0, 0.001}});
-  drive(world, robot, 0.5, [&](double) { return drive_tracks(model, {}, {}); });
+  drive(world, robot, 0.5, [&](double) { return drive_sides(model, 0, 0); });
   const double start = position_of(world, robot).x;
-  drive(world, robot, 0.4, [&](double) { return drive_tracks(model, {5, 0}, {}); });
+  drive(world, robot, 0.4, [&](double) { return drive_sides(model, 5, 0); });
   EXPECT_NEAR(position_of(world, robot).x - start, 0.5 * 0.7 * kG * 0.16, 0.02 * 0.55);
-  drive(world, robot, 2, [&](double) { return drive_tracks(model, {5, 0}, {}); });
+  drive(world, robot, 2, [&](double) { return drive_sides(model, 5, 0); });
   EXPECT_NEAR(world.robots().state(robot).links[0].linear.x, 5, 0.005);
 }
 
@@ -69,7 +69,7 @@ TEST(Crawler, DrivesAsFastAsItsBelts) {
   World world = make_robot_world();
   const RobotModel model = make_crawler();
   const int robot = world.robots().add(model, {{}, {0, 0, 0.001}});
-  const auto forward = [&](double) { return drive_tracks(model, {0.5, 0}, {}); };
+  const auto forward = [&](double) { return drive_sides(model, 0.5, 0); };
   drive(world, robot, 1, forward);
   const double start = position_of(world, robot).x;
   drive(world, robot, 2, forward);
@@ -85,7 +85,7 @@ TEST(Crawler, ClimbsASlopeUpToItsFrictionLimit) {
     const Slope slope(degrees);
     World world = slope.make();
     const int robot = world.robots().add(model, slope.base());
-    const auto up = [&](double) { return drive_tracks(model, {0.3, 0}, {}); };
+    const auto up = [&](double) { return drive_sides(model, 0.3, 0); };
     drive(world, robot, 2, up);  // at 34 degrees it takes 1.6 s to reach the belts' speed
     const double start = slope.along(world, robot);
     drive(world, robot, 2, up);
@@ -94,7 +94,7 @@ TEST(Crawler, ClimbsASlopeUpToItsFrictionLimit) {
   const Slope steep(40);
   World world = steep.make();
   const int robot = world.robots().add(model, steep.base());
-  const auto up = [&](double) { return drive_tracks(model, {0.3, 0}, {}); };
+  const auto up = [&](double) { return drive_sides(model, 0.3, 0); };
   drive(world, robot, 0.5, up);
   const double before = world.robots().state(robot).links[0].linear.x;
   drive(world, robot, 0.5, up);
@@ -122,7 +122,7 @@ TEST(Crawler, TipsOverWhereItsWeightLeavesTheTracks) {
     Pose base = slope.base();
     base.rotation = base.rotation * testing::turned({0, 0, 1}, 90 * kDegree);
     const int robot = world.robots().add(model, base);
-    drive(world, robot, 3, [&](double) { return drive_tracks(model, {}, {}); });
+    drive(world, robot, 3, [&](double) { return drive_sides(model, 0, 0); });
     const double up = dot(slope.turn.rotate({0, 0, 1}),
                           world.robots().state(robot).links[0].world_from_link.rotation.rotate({0, 0, 1}));
     if (off < 0) {
@@ -174,7 +174,7 @@ TEST(Crawler, TurnsOnTheSpotAsSlipAllowsNotAsOdometrySays) {
   World world = make_robot_world();
   const RobotModel model = make_crawler(bare());
   const int robot = world.robots().add(model, {{}, {0, 0, 0.001}});
-  const auto turn = [&](double) { return drive_tracks(model, {0, 1}, {}); };
+  const auto turn = [&](double) { return drive_sides(model, 0, 1); };
   drive(world, robot, 1, turn);
   const double start = yaw_of(world, robot);
   SkidSteering steering;
@@ -205,7 +205,7 @@ double climb(bool flippers, double height) {
   // Front flippers up at 50 degrees, then level; rear ones push down.
   drive(world, robot, 8, [&](double t) {
     const double front = t < 4 ? 0.9 : 0, rear = t < 2.5 ? 0.2 : -0.5;
-    return drive_tracks(model, {0.4, 0}, {front, front, rear, rear});
+    return drive_sides(model, 0.4, 0, {front, front, rear, rear});
   });
   return position_of(world, robot).z;
 }
@@ -219,7 +219,7 @@ TEST(Rover, RollsAsItsWheelsTurn) {
   World world = make_robot_world();
   const RobotModel model = make_rover();
   const int robot = world.robots().add(model, {{}, {0, 0, 0.001}});
-  const auto forward = [&](double) { return drive_wheels(model, {0.5, 0}); };
+  const auto forward = [&](double) { return drive_sides(model, 0.5, 0); };
   drive(world, robot, 1, forward);
   const double start = position_of(world, robot).x;
   const double turned = world.robots().state(robot).joints[0].position;
@@ -266,12 +266,12 @@ TEST(Robot, ASleepingPieceThatIsPushedWakesAndSlides) {
   RobotModel plough = model;  // a body down to the ground
   plough.links[0].parts = {make_box({0.7, 0.3, 0.15}, {0.02, 0, 0.085})};
   const int robot = world.robots().add(plough, {{}, {0, 0, 0.001}});
-  drive(world, robot, 3, [&](double) { return drive_tracks(model, {0.2, 0}, {}); });
+  drive(world, robot, 3, [&](double) { return drive_sides(model, 0.2, 0); });
   const double pushed = world.piece(brick).world_from_body.translation.x;
   EXPECT_NEAR(pushed, position_of(world, robot).x + 0.37 + 0.055, 0.005);
   EXPECT_NEAR(world.piece(brick).linear_velocity.x, 0.2, 0.01);
   // Stopped, it sleeps again only when it lies still, and far from what is driven.
-  drive(world, robot, 1, [&](double) { return drive_tracks(model, {-0.2, 0}, {}); });
+  drive(world, robot, 1, [&](double) { return drive_sides(model, -0.2, 0); });
   EXPECT_FALSE(world.is_awake(brick));
 }
 

@@ -209,8 +209,7 @@ TEST(RobotLooks, DoNotChangeTheMotion) {
       world.add({piece});
       const int robot = world.robots().add(model, {{}, {0, 0, 0.03}});
       testing::drive(world, robot, 1, [&](double time) {
-        if (model.sides.belts) return drive_tracks(model, {0.5, 0.2}, {});
-        if (model.sides.any()) return drive_wheels(model, {0.5, 0.2});
+        if (model.sides.any()) return drive_sides(model, 0.5, 0.2);
         return calc_gait(model, sidewinding(), time);
       });
       hashes[k] = testing::hash_of(world);

@@ -18,6 +18,10 @@ struct Ride {
   Vec3 way;                          // of the base; unit: m
 };
 
+struct Twist {
+  double linear = 0, angular = 0;  // unit: m/s, rad/s
+};
+
 // On the level, or against a wall at x = 0.6.
 Ride ride(const RobotModel& model, const Twist& twist, double seconds, bool wall = false) {
   World world = testing::make_robot_world({testing::box_type("wall", 0.2, 4, 1)});
@@ -27,7 +31,6 @@ Ride ride(const RobotModel& model, const Twist& twist, double seconds, bool wall
     world.add({piece});
   }
   const int robot = world.robots().add(model, {{}, {0, 0, 0.001}});
-  const bool crawler = model.sides.belts;
   WheelOdometry odometry(model);
   Ride result;
   const Vec3 start = testing::position_of(world, robot);
@@ -37,7 +40,7 @@ Ride ride(const RobotModel& model, const Twist& twist, double seconds, bool wall
     const double now = testing::yaw_of(world, robot);
     result.turned += std::remainder(now - yaw, 2 * portable::kPi);
     yaw = now;
-    return crawler ? drive_tracks(model, twist, {}) : drive_wheels(model, twist);
+    return drive_sides(model, twist.linear, twist.angular);
   });
   result.mean_slip = odometry.mean_slip();
   result.way = testing::position_of(world, robot) - start;

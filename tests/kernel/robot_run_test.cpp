@@ -67,7 +67,7 @@ RobotController undulate(const RobotModel& model) {
 }
 
 RobotController push(const RobotModel& model, double speed) {
-  return [&model, speed](const RobotSense&) { return drive_tracks(model, {speed, 0}, {}); };
+  return [&model, speed](const RobotSense&) { return drive_sides(model, speed, 0); };
 }
 
 TEST(RobotRun, APileThatIsLaidStaysAsItWas) {
@@ -139,7 +139,7 @@ TEST(RobotRun, TheBitsDoNotDependOnThreads) {
     run.add(crawler, {{}, {-1.8, 0, 0.002}}, push(crawler, 0.4));
     run.add(snake, {{}, {0, 0, 0.6}}, undulate(snake));
     run.add(rover, {{}, {0, 1.6, 0.002}}, [&rover](const RobotSense&) {
-      return drive_wheels(rover, {-0.5, 0.3});
+      return drive_sides(rover, -0.5, 0.3);
     });
     hashes[k] = run.run().hash();
   }
@@ -150,9 +150,32 @@ TEST(RobotRun, TheBitsDoNotDependOnThreads) {
   run.add(crawler, {{}, {-1.8, 1e-9, 0.002}}, push(crawler, 0.4));
   run.add(snake, {{}, {0, 0, 0.6}}, undulate(snake));
   run.add(rover, {{}, {0, 1.6, 0.002}}, [&rover](const RobotSense&) {
-    return drive_wheels(rover, {-0.5, 0.3});
+    return drive_sides(rover, -0.5, 0.3);
   });
   EXPECT_NE(run.run().hash(), hashes[0]);
+}
+
+// Another robot stood elsewhere and pushed the pile meanwhile.
+TEST(RobotRun, ARestartHasTheBitsOfANewRun) {
+  const Settled& s = brick_heap();
+  const RobotModel crawler = make_crawler(), rover = make_rover();
+  RobotRunOptions options = run_options(1.5);
+  options.restarts = true;
+  RobotRun run(s.pile, s.state, options);
+  std::uint64_t hashes[4] = {};
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) run.restart();
+    if (k == 1) run.add(rover, {{}, {-1.7, 0.4, 0.002}}, [&](const RobotSense&) { return drive_sides(rover, 0.6, 0.1); });
+    run.add(crawler, {{}, {k == 1 ? 2.5 : -1.6, 0.2, 0.002}}, push(crawler, 0.4));
+    hashes[k] = run.run().hash();
+  }
+  RobotRun fresh(s.pile, s.state, run_options(1.5));
+  fresh.add(crawler, {{}, {-1.6, 0.2, 0.002}}, push(crawler, 0.4));
+  hashes[3] = fresh.run().hash();
+  EXPECT_EQ(hashes[0], hashes[3]);
+  EXPECT_EQ(hashes[2], hashes[3]);
+  EXPECT_NE(hashes[1], hashes[3]);
+  EXPECT_THROW(fresh.restart(), RunError);
 }
 
 TEST(RobotRun, ARobotInsideAPieceIsNamed) {
@@ -162,7 +185,7 @@ TEST(RobotRun, ARobotInsideAPieceIsNamed) {
   const PileState state = settle_pile(pile);
   const RobotModel model = make_rover();
   RobotRun run(pile, state, run_options(1));
-  run.add(model, {{}, {0, 0, 0.62}}, [&](const RobotSense&) { return drive_wheels(model, {}); });
+  run.add(model, {{}, {0, 0, 0.62}}, [&](const RobotSense&) { return drive_sides(model, 0, 0); });
   try {
     run.run();
     FAIL();

@@ -1,9 +1,12 @@
 // What the tests of robots share.
 #pragma once
 
-#include "kernel/robot/bundled.h"
-#include "kernel/robot/gaits.h"
+#include "kernel/robot/drive_commands.h"
 #include "kernel/world/world.h"
+#include "scripting/robots/crawler.h"
+#include "scripting/robots/rover.h"
+#include "scripting/robots/snake.h"
+#include "scripting/robots/vine.h"
 #include "scenes.h"
 
 namespace rubble::testing {

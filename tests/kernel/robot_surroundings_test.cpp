@@ -9,11 +9,11 @@
 
 #include "kernel/base/error.h"
 #include "kernel/queries/queries.h"
-#include "kernel/robot/bundled.h"
-#include "kernel/robot/gaits.h"
+#include "kernel/robot/drive_commands.h"
 #include "kernel/robot/robot_run.h"
 #include "kernel/surroundings/make_surroundings.h"
 #include "kernel/geometry/mesh_builder.h"
+#include "scripting/robots/rover.h"
 #include "kernel/world/world_robots.h"
 
 namespace rubble {
@@ -47,7 +47,7 @@ RobotRunResult drive(std::shared_ptr<const Surroundings> surroundings, const Vec
   options.duration = duration, options.threads = threads;
   RobotRun run(Pile{}, empty_pile(std::move(surroundings)), options);
   const RobotModel model = make_rover({});
-  run.add(model, {Quat{}, from}, [&](const RobotSense&) { return drive_wheels(model, {speed, 0}); });
+  run.add(model, {Quat{}, from}, [&](const RobotSense&) { return drive_sides(model, speed, 0); });
   return run.run([&](double) {
     if (seen) seen(run.world().robots().state(0).links[0].world_from_link);
     return true;

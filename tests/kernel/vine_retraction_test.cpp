@@ -19,10 +19,14 @@ RobotModel make_short_vine() {
   return make_vine(options);
 }
 
+struct Growth {
+  double speed = 0, curve_left = 0, curve_up = 0;  // unit: m/s, 1/m
+};
+
 void move(World& world, double seconds, const Growth& growth, const std::function<void(const RobotState&)>& look = {}) {
   const RobotModel model = world.robots().model(0);
   for (int i = 0; i < int(seconds / kRobotStep + 0.5); ++i) {
-    if (i % 4 == 0) world.robots().set_command(0, drive_vine(model, growth));
+    if (i % 4 == 0) world.robots().set_command(0, grow_tube(model, growth.speed, growth.curve_left, growth.curve_up));
     world.step();
     if (look) look(world.robots().state(0));
   }

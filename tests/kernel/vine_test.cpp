@@ -26,12 +26,16 @@ VineOptions vine_of(double pressure, double radius, double length) {
   return options;
 }
 
+struct Growth {
+  double speed = 0, curve_left = 0, curve_up = 0;  // unit: m/s, 1/m
+};
+
 // Grows for some seconds; `look` after each step, false to stop.
 void grow(World& world, int robot, double seconds, const Growth& growth,
           const std::function<bool(const RobotState&)>& look = {}) {
   const RobotModel model = world.robots().model(robot);
   for (int i = 0; i < int(seconds / kRobotStep + 0.5); ++i) {
-    if (i % 4 == 0) world.robots().set_command(robot, drive_vine(model, growth));
+    if (i % 4 == 0) world.robots().set_command(robot, grow_tube(model, growth.speed, growth.curve_left, growth.curve_up));
     world.step();
     if (look && !look(world.robots().state(robot))) return;
   }
@@ -258,7 +262,7 @@ void expect_base_in_brick(bool fixed) {
   options.threads = 1;
   RobotRun run(pile, state, options);
   const RobotModel model = make_vine();
-  run.add(model, {{}, {0, 0, 0.051}}, [&](const RobotSense&) { return drive_vine(model, {}); });
+  run.add(model, {{}, {0, 0, 0.051}}, [&](const RobotSense&) { return grow_tube(model, 0); });
   try {
     run.run();
     FAIL();
@@ -283,7 +287,7 @@ TEST(Vine, ABaseBesideAFixedPieceHasRoom) {
   options.threads = 1;
   RobotRun run(pile, settle_pile(pile), options);
   const RobotModel model = make_vine();
-  run.add(model, {{}, {0, 0, 0.051}}, [&](const RobotSense&) { return drive_vine(model, {}); });
+  run.add(model, {{}, {0, 0, 0.051}}, [&](const RobotSense&) { return grow_tube(model, 0); });
   EXPECT_NO_THROW(run.run());
 }
 

@@ -61,9 +61,11 @@ TEST(RobotMessages, AScanLiesInItsPlane) {
   LidarSpec spec;
   spec.pattern = LidarPattern::planar;
   spec.columns = 4, spec.first_azimuth_deg = -90, spec.span_deg = 360, spec.min_range = 0.1, spec.max_range = 30;
-  LidarPoint left;
+  ScanPoint left;
   left.y = 2, left.column = 2;
-  const HeardCloud scan = read_laser_scan(kRos1, ros::laser_scan(kRos1, {}, spec, {left}));
+  RangeScan measured;
+  measured.spec = std::make_shared<const LidarSpec>(spec), measured.points = {left};
+  const HeardCloud scan = read_laser_scan(kRos1, ros::laser_scan(kRos1, {}, measured));
   ASSERT_EQ(scan.points.size(), 1u) << "rays without an echo are infinite";
   EXPECT_NEAR(scan.points[0].place.x, 0, 1e-6);
   EXPECT_NEAR(scan.points[0].place.y, 2, 1e-6);

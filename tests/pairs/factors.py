@@ -286,7 +286,7 @@ FOLDERS = {
     "tum": {"outputs": {"tum": True}},
     "euroc": {"outputs": {"euroc": True}},
     "colmap": {"outputs": {"colmap": True}},
-    "all": {"outputs": {"frames": True, "tum": True, "euroc": True, "colmap": True}},
+    "all": {"outputs": {"frames": True, "tum": True, "euroc": True, "colmap": True, "nerfstudio": True, "webdataset": True}},
 }
 
 SCAN_FILES = {

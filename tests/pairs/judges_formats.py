@@ -32,8 +32,9 @@ def pictures_are_equal(data):
     """Colour pictures of each folder are those of the recording; depth within the rounding of each format."""
     for camera in data.cameras:
         sources = {}
-        for name, pattern in (("frames", "frames/rgb/*.png"), ("tum", "tum/rgb/*.png"), ("colmap", "colmap/images/*.png")):
-            files = sorted(glob.glob(camera.file(*pattern.split("/"))))
+        for name, pattern in (("frames", camera.file("frames", "rgb", "*.png")), ("tum", camera.file("tum", "rgb", "*.png")),
+                              ("colmap", data.file("colmap", "images", colmap_eye(data, camera), "*.png"))):
+            files = sorted(glob.glob(pattern))
             if files:
                 sources[name] = [pictures.read_png(path) for path in files]
         if data.recording is not None and data.recording.messages(camera.topic("/rgb/image_raw")):
@@ -66,8 +67,9 @@ def poses_are_equal(data):
             with open(camera.file("tum", "rgb.txt"), encoding="ascii") as file:
                 found = [nanoseconds(line.split()[0]) for line in file if not line.startswith("#")]
             need(found == stamps.tolist(), "%s: stamps of rgb.txt are not those of the poses", camera.name)
-        if os.path.exists(camera.file("colmap", "sparse", "images.txt")):
-            left = [(p, t) for name, p, t in read_colmap(camera.file("colmap", "sparse", "images.txt")) if "right" not in name]
+        if data.has("colmap", "sparse", "images.txt"):
+            eye = colmap_eye(data, camera)
+            left = [(p, t) for name, p, t in read_colmap(data.file("colmap", "sparse", "images.txt")) if os.path.dirname(name) == eye]
             compare(camera.poses, (stamps, np.array([p for p, _ in left]), np.array([t for _, t in left])),
                     camera.name + ": colmap/sparse/images.txt")
         if os.path.exists(camera.file("frames", "poses.csv")):
@@ -101,6 +103,12 @@ def compare(wanted, found, what):
         need(error < 2e-6 and angle < 2e-4, "%s: poses differ by %.2g m, %.2g rad from groundtruth.txt", what, error, angle)
 
 
+def colmap_eye(data, camera):
+    """The folder of the pictures of the camera, the left ones of a pair, below colmap/images."""
+    parts = [camera.name] if data.scenario["cameras"] else []
+    return "/".join(parts + (["left"] if camera.settings.get("stereo_baseline") else []))
+
+
 def read_colmap(path):
     """(file, centre, world_from_optical) of each picture."""
     with open(path, encoding="utf-8") as file:
@@ -132,9 +140,10 @@ def intrinsics_are_equal(data):
             with open(camera.file("tum", "calibration.txt"), encoding="ascii") as file:
                 numbers = [float(word) for word in " ".join(line for line in file if not line.startswith("#")).split()]
             found["calibration.txt"] = (numbers[:4], numbers[4:])
-        if os.path.exists(camera.file("colmap", "sparse", "cameras.txt")):
-            with open(camera.file("colmap", "sparse", "cameras.txt"), encoding="ascii") as file:
-                words = next(line for line in file if not line.startswith("#")).split()
+        if data.has("colmap", "sparse", "cameras.txt"):
+            before = sum(2 if other.settings.get("stereo_baseline") else 1 for other in data.cameras[:number])
+            with open(data.file("colmap", "sparse", "cameras.txt"), encoding="ascii") as file:
+                words = [line for line in file if not line.startswith("#")][before].split()
             numbers = [float(word) for word in words[4:]]
             found["cameras.txt"] = ([numbers[0], numbers[1], numbers[2] - 0.5, numbers[3] - 0.5], numbers[4:])
         for name, (focal, distortion) in found.items():

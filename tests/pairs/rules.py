@@ -12,7 +12,7 @@ ONE_WITH_ODOMETRY = ("crawler", "rover", "cart", "team")
 
 # (factor, levels, other factor, its levels, words of the message that the program must give)
 REFUSED = [
-    ("robots", but("robots", "none"), "record_settling", ["all", "window"], "robots start with the first frame"),
+    ("path", ["ride", "links"], "record_settling", ["all", "window"], "every camera is on a robot"),
     ("robots", ["none"], "path", ["ride", "links"], "no robot has this name"),
     ("robots", but("robots", *ONE_WITH_ODOMETRY), "rawlog", ["actions"], "actions need one robot with odometry"),
     ("start", ["after_2038"], "ros2", ["mcap"], "19 January 2038"),

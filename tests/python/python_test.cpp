@@ -77,6 +77,10 @@ TEST(PythonEnvironments, RepeatTheirEpisodes) { expect_tests("test_envs.py"); }
 TEST(PythonEnvironments, TheReferenceIsUpToDate) { expect_tests("test_env_reference.py"); }
 TEST(PythonEnvironments, KeepWhatGymnasiumAsksOfThem) { expect_tests("test_env_contract.py"); }
 
+TEST(PythonEnvironments, DrawWhatTheyAreToldTo) { expect_tests("test_randomization.py"); }
+TEST(PythonEnvironments, HaveSeveralRobots) { expect_tests("test_team.py"); }
+TEST(PythonEnvironments, StepInBatches) { expect_tests("test_batch.py"); }
+
 TEST(PythonPolicy, SeesAndAnswers) { expect_tests("test_ppo.py -k Senses -k Agent"); }
 TEST(NightlyPython, APolicyLearns) { expect_tests("test_ppo.py -k Training"); }
 

@@ -1,5 +1,6 @@
 """Recordings as arrays, against what the mission says and against rosbag."""
 import os
+import struct
 import subprocess
 import tempfile
 import unittest
@@ -73,6 +74,22 @@ class Recording(unittest.TestCase):
         stamps, readings = self.data.imu()
         self.assertEqual(readings.shape, (51, 6))
         self.assertAlmostEqual(float(np.linalg.norm(readings[:, 3:], axis=1).mean()), 9.81, delta=0.6)
+
+    def test_poses_of_what_is_on_robots(self):
+        def poses(topics, topic=None):
+            data = rubble.Dataset.__new__(rubble.Dataset)
+            data.bag, data.topics, asked = "m.bag", dict.fromkeys(topics, 1), []
+            data._messages = lambda name, parse: asked.append((name, parse.__name__)) or (np.zeros(0), [])
+            data.poses(topic)
+            return asked[0]
+        self.assertEqual(poses(["/ground_truth/pose", "/a/ground_truth/pose"]), ("/ground_truth/pose", "_pose"))
+        self.assertEqual(poses(["/a/ground_truth/pose", "/a/odom"]), ("/a/ground_truth/pose", "_pose"))
+        self.assertEqual(poses(["/a/ground_truth/pose"], "/ground_truth/odom"), ("/ground_truth/odom", "_odometry"))
+        with self.assertRaisesRegex(rubble.InputError, "one of /a/ground_truth/pose, /b/ground_truth/pose"):
+            poses(["/a/ground_truth/pose", "/b/ground_truth/pose"])
+        head = struct.pack("<III", 0, 3, 5) + struct.pack("<I", 5) + b"world" + struct.pack("<I", 4) + b"base"
+        stamp, row = rubble.dataset._odometry(head + struct.pack("<7d", 1, 2, 3, 0.1, 0.2, 0.3, 0.9) + bytes(36 * 8))
+        self.assertEqual((stamp, row), (3_000_000_005, (1, 2, 3, 0.9, 0.1, 0.2, 0.3)))
 
     def test_mistakes(self):
         with self.assertRaises(rubble.InputError) as raised:

@@ -1,6 +1,7 @@
 """docs/reference/environments.md is what tools/environments_page.py makes of the environments."""
 import importlib.util
 import os
+import re
 import unittest
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -18,6 +19,13 @@ class Reference(unittest.TestCase):
         with open(os.path.join(ROOT, "docs", "reference", "environments.md")) as file:
             self.assertEqual(file.read(), load_tool().make_page(),
                              "run: cmake --build build/release --target environments_reference")
+
+    def test_blocks_of_python_run(self):
+        with open(os.path.join(ROOT, "docs", "reference", "environments.md")) as file:
+            blocks = re.findall(r"^```python\n(.*?)^```", file.read(), re.DOTALL | re.MULTILINE)
+        self.assertEqual(len(blocks), 2)
+        for block in blocks:
+            exec(compile(block, "docs/reference/environments.md", "exec"), {})
 
     def test_entries_that_do_not_exist_are_refused(self):
         tool = load_tool()

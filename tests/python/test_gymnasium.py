@@ -1,4 +1,5 @@
-"""The environments as users of gymnasium and stable-baselines3 have them: found without an import, without a warning."""
+"""The environments as users of gymnasium, pettingzoo and stable-baselines3 have them: found without an import, without a
+warning."""
 import os
 import subprocess
 import sys
@@ -6,6 +7,7 @@ import unittest
 import warnings
 
 import gymnasium
+import numpy as np
 from gymnasium.utils.env_checker import check_env
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -52,6 +54,44 @@ class Gymnasium(unittest.TestCase):
         self.assertEqual(observation["scan"].shape, (2, 64))
         vector.step(vector.action_space.sample())
         vector.close()
+
+
+    def test_make_vec_gives_a_batch(self):
+        import rubble.envs
+        vector = gymnasium.make_vec("rubble/CrawlerNav-v0", num_envs=3, pile_seeds=[1], rays=16, max_episode_steps=2, batch_threads=2)
+        self.assertIsInstance(vector, rubble.envs.Batch)
+        observation, _ = vector.reset(seed=1)
+        self.assertTrue(vector.observation_space.contains(observation))
+        ends = [vector.step(vector.action_space.sample())[3].tolist() for _ in range(3)]
+        self.assertEqual(ends, [[False] * 3, [True] * 3, [False] * 3])
+        # As gymnasium's own, step by step.
+        vector, own = (gymnasium.make_vec("rubble/CrawlerNav-v0", num_envs=2, pile_seeds=[1], rays=16, max_episode_steps=2,
+                                          vectorization_mode=mode) for mode in (None, "sync"))
+        steps = [[env.reset(seed=7)] + [env.step(np.full((2, 4), 0.5, np.float32)) for _ in range(4)] for env in (vector, own)]
+        for mine, theirs in zip(*steps):
+            self.assertEqual(str(mine[1:]), str(theirs[1:]))
+            for name in mine[0]:
+                np.testing.assert_array_equal(mine[0][name], theirs[0][name])
+        wrapped = gymnasium.wrappers.vector.RecordEpisodeStatistics(vector)
+        wrapped.reset(seed=1)
+        wrapped.step(wrapped.action_space.sample())
+        vector.close()
+
+
+class PettingZoo(unittest.TestCase):
+    def test_its_parallel_test_passes(self):
+        try:
+            from pettingzoo import ParallelEnv
+            from pettingzoo.test import parallel_api_test
+        except ImportError:
+            self.skipTest("PettingZoo is not installed")
+        from rubble.envs import TeamNav
+        env = TeamNav(pile_seeds=[1], max_steps=15)
+        self.assertIsInstance(env, ParallelEnv)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            parallel_api_test(env, num_cycles=40)
+        self.assertEqual(str(env), "rubble/TeamNav-v0")
 
 
 class StableBaselines(unittest.TestCase):

@@ -158,6 +158,89 @@ class Sessions(unittest.TestCase):
         self.assertGreater(session.state("rover")["links"][0, 0], back)
         self.assertAlmostEqual(session.time, 1)
 
+    @staticmethod
+    def play(session, steps=20):
+        """All that the session senses from now on; bytes."""
+        told = []
+        for _ in range(steps):
+            session.step(1 / 60)
+            for sample in session.observe():
+                told.append([(name, np.asarray(value).tobytes()) for name, value in sorted(sample.items())])
+        return told
+
+    def test_a_reset_session_has_the_bits_of_a_new_one(self):
+        session = rubble.Session(self.pile, depth=True, threads=1)
+        first = self.play(session)
+        session.drive("rover", 0.8, 0.5)
+        session.step(0.4)
+        session.reset()
+        self.assertEqual(session.time, 0)
+        self.assertEqual(self.play(session), first)  # and the mission drives again
+        there = rubble.pose([0, -1.5, 0.001], (0, 0, 1.5))
+        session.reset({"rover": there})
+        np.testing.assert_allclose(session.state("rover")["links"][0], there, atol=1e-12)
+        self.assertNotEqual(self.play(session), first)
+        session.reset()
+        self.assertEqual(self.play(session), first)
+        with self.assertRaises(rubble.InputError) as raised:
+            session.reset({"cat": there})
+        self.assertEqual(raised.exception.key, "robot")
+
+    def test_a_reset_robot_has_the_bits_of_a_new_one_and_the_pile_lies_as_before(self):
+        def push(robot):
+            robot.drive(0.7, 0.1)
+            return b"".join(np.ascontiguousarray(value).tobytes() for _ in range(40) for value in robot.step(1 / 60).values())
+
+        here, there = rubble.pose([-0.9, 0, 0.001]), rubble.pose([0.9, 0.1, 0.001], (0, 0, 3.1))
+        robot = rubble.RobotWorld(self.pile, "rover", here, threads=1)
+        first = push(robot)
+        robot.reset(there)
+        second = push(robot)
+        self.assertNotEqual(first, second)
+        self.assertEqual(second, push(rubble.RobotWorld(self.pile, "rover", there, threads=1)))
+        robot.reset()
+        self.assertEqual(first, push(robot))
+        # One that was refused its place goes on after a reset.
+        robot.reset(rubble.pose([0, 0, 0.001]))
+        with self.assertRaises(rubble.InputError):
+            robot.step()
+        robot.reset()
+        self.assertEqual(first, push(robot))
+
+    def test_friction_is_that_of_the_robot(self):
+        def climb(friction):
+            robot = rubble.RobotWorld(self.pile, "rover", rubble.pose([-0.9, 0, 0.001]), threads=1, friction=friction)
+            robot.drive(1.0)
+            return robot.step(0.3)["links"][0][0]
+        self.assertLess(climb(0.01), climb(0.8) - 0.02)
+        self.assertEqual(climb(None), climb(0.8))
+        with self.assertRaises(rubble.InputError) as raised:
+            climb(3.0)
+        self.assertEqual(raised.exception.key, "friction")
+
+    def test_a_session_that_is_not_observed_moves_alike(self):
+        seen, unseen = (rubble.Session(self.pile, threads=1, observed=observed) for observed in (True, False))
+        for session in (seen, unseen):
+            session.drive("rover", 0.5)
+            session.step(0.3)
+        self.assertEqual(unseen.observe(), [])
+        np.testing.assert_array_equal(seen.state("rover")["links"], unseen.state("rover")["links"])
+
+    def test_a_pile_is_varied_without_settling(self):
+        varied = self.pile.vary(["light.type=sun", "air.fog_density=0.5", "robots[1].friction=0.3"])
+        self.assertEqual(varied.state_hash, self.pile.state_hash)
+        slow, fast = (rubble.Session(pile, threads=1, observed=False) for pile in (self.pile.vary(["robots[1].friction=0.01"]), varied))
+        for session in (slow, fast):
+            session.drive("rover", 1.0)
+            session.step(0.3)
+        self.assertLess(slow.state("rover")["links"][0][0], fast.state("rover")["links"][0][0])
+        for overrides, key in ((["air.fog_density=0.5", "pile.layers=2"], "pile.layers"), (["settle.gravity=5"], "settle.gravity"),
+                               (["surroundings.reach=60"], "surroundings.reach"), (["seed=3"], "seed")):
+            with self.assertRaises(rubble.InputError) as raised:
+                self.pile.vary(overrides)
+            self.assertEqual(raised.exception.key, key)
+            self.assertIn("settle", str(raised.exception))
+
     def test_mistakes(self):
         for call, key in ((lambda: self.session.drive("cat", 1), "robot"),
                           (lambda: self.session.grow("rover", 1), "grow"),

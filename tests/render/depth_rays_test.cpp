@@ -1,5 +1,5 @@
 // Depth pictures by rays against the rays of LiDARs, one at a time.
-#include "render/lidar/depth_rays.h"
+#include "render/rays/depth_rays.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace depth_rays_test {
 
 // Pictures of all shapes are cast in tiles of pixels; a pixel knows nothing of its tile.
 TEST(DepthRays, ArePixelForPixelThoseOfSingleRays) {
-  const LidarWorld world(make_heap(60, 5));
+  const RayWorld world(make_heap(60, 5));
   const Pose eye = look_at({-3, 0.3, 1.1}, {0, 0, 0.4});
   constexpr double kReach = 4;
   for (const auto& [width, height] : {std::pair(16, 12), std::pair(7, 5), std::pair(1, 1), std::pair(33, 2)}) {
@@ -26,8 +26,8 @@ TEST(DepthRays, ArePixelForPixelThoseOfSingleRays) {
     rays.cast(world, eye, three, again.data());
     EXPECT_EQ(depth, again);
     for (std::size_t i = 0; i < pixels; ++i) {
-      const LidarWorld::Ray ray{eye.translation, eye.rotation.matrix() * rays.direction(i), 0};
-      LidarWorld::Hit hit;
+      const RayWorld::Ray ray{eye.translation, eye.rotation.matrix() * rays.direction(i), 0};
+      RayWorld::Hit hit;
       world.cast(&ray, 1, kReach, &hit);
       ASSERT_EQ(pieces[i], hit.piece) << width << " wide, pixel " << i;
       if (hit.distance < 0) {

@@ -11,7 +11,7 @@
 #include "kernel/base/portable_math.h"
 #include "render/materials/surface_appearance.h"
 #include "scripting/mission.h"
-#include "scripting/scenario/lidar_scenario.h"
+#include "scripting/sensors/lidar.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
@@ -21,12 +21,13 @@ constexpr double kPi = portable::kPi;
 
 // Lines of light without noise, limits or rounding.
 LidarSpec ideal(LidarModel model = LidarModel::vlp16) {
-  LidarScenario lidar;
+  LidarFigures lidar;
   lidar.model = model;
-  lidar.noise = false;
   lidar.range_step = 0, lidar.divergence_mrad = 0;
   lidar.min_range = 0.01, lidar.max_range = 100, lidar.range_at_10_percent = 1000;
-  return lidar.spec();
+  LidarSpec spec = lidar.spec();
+  spec.noise = false;
+  return spec;
 }
 
 Scene place_boxes(const std::vector<std::pair<Vec3, Pose>>& boxes) {
@@ -47,13 +48,13 @@ LidarPlace standing(const Pose& pose = {}) {
   return {[pose](std::int64_t) { return pose; }, 1'000'000'000};
 }
 
-LidarScan scan_of(const LidarSpec& spec, const Scene& scene, const LidarPlace& place, int number = 0,
+RangeScan scan_of(const LidarSpec& spec, const Scene& scene, const LidarPlace& place, int number = 0,
                   int threads = 1, std::uint64_t seed = 3) {
-  Lidar lidar(spec, std::make_shared<LidarWorld>(scene), place, Medium(scene.air, scene.seed), seed, threads);
+  Lidar lidar(spec, std::make_shared<RayWorld>(scene), place, Medium(scene.air, scene.seed), seed, threads);
   return lidar.take(number);
 }
 
-Vec3 place_of(const LidarPoint& p) { return {double(p.x), double(p.y), double(p.z)}; }
+Vec3 place_of(const ScanPoint& p) { return {double(p.x), double(p.y), double(p.z)}; }
 
 // From inside a box around the origin: how far its wall is.
 double wall_distance(const Vec3& from, const Vec3& direction, const Vec3& size) {
@@ -76,13 +77,13 @@ const Vec3 kRoom(9, 7, 5);
 
 TEST(LidarRange, IsThatOfATurnedRoomToFloatPrecision) {
   const Pose world_from_room{portable::quat_from_rpy(0.2, -0.3, 0.7), {0.4, -0.2, 0.3}};
-  const Pose world_from_lidar{portable::quat_from_rpy(-0.1, 0.15, 2), {1.1, 0.5, 0.2}};
+  const Pose world_from_sensor{portable::quat_from_rpy(-0.1, 0.15, 2), {1.1, 0.5, 0.2}};
   const Scene scene = place_boxes({{kRoom, world_from_room}});
-  const LidarScan scan = scan_of(ideal(LidarModel::os1), scene, standing(world_from_lidar));
+  const RangeScan scan = scan_of(ideal(LidarModel::os1), scene, standing(world_from_sensor));
   ASSERT_EQ(scan.points.size(), 64u * 1024);
-  const Pose room_from_lidar = world_from_room.inverse() * world_from_lidar;
+  const Pose room_from_lidar = world_from_room.inverse() * world_from_sensor;
   double worst = 0;
-  for (const LidarPoint& p : scan.points) {
+  for (const ScanPoint& p : scan.points) {
     const double range = norm(place_of(p));
     const Vec3 direction = room_from_lidar.rotation.rotate(place_of(p) * (1 / range));
     worst = std::max(worst, std::fabs(range - wall_distance(room_from_lidar.translation, direction, kRoom)));
@@ -92,9 +93,9 @@ TEST(LidarRange, IsThatOfATurnedRoomToFloatPrecision) {
 
 TEST(LidarRange, OfTheGroundIsHeightOverSine) {
   Scene ground;
-  const LidarScan scan = scan_of(ideal(), ground, standing({{}, {3, 4, 2}}));
+  const RangeScan scan = scan_of(ideal(), ground, standing({{}, {3, 4, 2}}));
   ASSERT_EQ(scan.points.size(), 7u * 1808);  // the lower half of the rings; the ground at -1 degree is 115 m away
-  for (const LidarPoint& p : scan.points) {
+  for (const ScanPoint& p : scan.points) {
     const double elevation = (-15 + 2 * p.ring) * kPi / 180;
     ASSERT_NEAR(norm(place_of(p)), 2 / std::sin(-elevation), 1e-5);
     ASSERT_NEAR(double(p.z), -2, 1e-6);
@@ -107,17 +108,17 @@ TEST(LidarMotion, BendsAScanAndTheTruePosesStraightenIt) {
     return Pose{portable::quat_from_rpy(0, 0.2 * t, 1.5 * t), Vec3(1.2, -0.5, 0.3) * t};
   };
   const Scene scene = place_boxes({{kRoom, {}}});
-  const LidarScan scan = scan_of(ideal(), scene, {pose_at, 1'000'000'000}, 2);
+  const RangeScan scan = scan_of(ideal(), scene, {pose_at, 1'000'000'000}, 2);
   ASSERT_EQ(scan.stamp_ns, 1'200'000'000);
   double straight = 0, bent = 0, listed = 0;
-  for (const LidarPoint& p : scan.points) {
+  for (const ScanPoint& p : scan.points) {
     const std::int64_t offset = std::llround(double(p.time) * 1e9);
     straight = std::max(straight, off_the_walls(pose_at(scan.stamp_ns + offset) * place_of(p), kRoom));
     bent = std::max(bent, off_the_walls(pose_at(scan.stamp_ns) * place_of(p), kRoom));
     // By the list of poses alone, taken at the nearest millisecond before and moved on.
-    const auto k = std::size_t(offset / LidarScan::kMotionStep);
-    const double share = double(offset % LidarScan::kMotionStep) / double(LidarScan::kMotionStep);
-    const Vec3 a = scan.world_from_lidar[k] * place_of(p), b = scan.world_from_lidar[k + 1] * place_of(p);
+    const auto k = std::size_t(offset / RangeScan::kMotionStep);
+    const double share = double(offset % RangeScan::kMotionStep) / double(RangeScan::kMotionStep);
+    const Vec3 a = scan.world_from_sensor[k] * place_of(p), b = scan.world_from_sensor[k + 1] * place_of(p);
     listed = std::max(listed, off_the_walls(a * (1 - share) + b * share, kRoom));
   }
   EXPECT_LT(straight, 1e-5);
@@ -133,10 +134,10 @@ TEST(LidarMotion, OfWhatMovesIsThatOfEachRaysTime) {
   Scene scene = place_boxes({{{0.2, 40, 40}, wall(1'000'000'000)}});
   scene.motion.moving = {0};
   scene.motion.poses_at = [wall](std::int64_t stamp_ns) { return std::vector<std::optional<Pose>>{wall(stamp_ns)}; };
-  const LidarScan scan = scan_of(ideal(), scene, standing(), 1);
+  const RangeScan scan = scan_of(ideal(), scene, standing(), 1);
   ASSERT_GT(scan.points.size(), 5000u);
   double worst = 0, first = 1e9, last = 0;
-  for (const LidarPoint& p : scan.points) {
+  for (const ScanPoint& p : scan.points) {
     const std::int64_t offset = std::llround(double(p.time) * 1e9);
     const double x = wall(scan.stamp_ns + offset).translation.x - 0.1;
     worst = std::max(worst, std::fabs(double(p.x) - x));
@@ -151,9 +152,9 @@ TEST(LidarSignal, IsThatOfLambertsLawAndReachesAsFarAsStated) {
   LidarSpec spec = ideal();
   spec.range_at_10_percent = 20;
   const double height = 2, albedo = double(mean_red_albedo(all_surface_appearances().back(), 1));
-  const LidarScan scan = scan_of(spec, ground, standing({{}, {0, 0, height}}));
+  const RangeScan scan = scan_of(spec, ground, standing({{}, {0, 0, height}}));
   std::set<int> seen;
-  for (const LidarPoint& p : scan.points) {
+  for (const ScanPoint& p : scan.points) {
     const double cosine = height / norm(place_of(p));
     ASSERT_NEAR(double(p.intensity), 100 * albedo * cosine, 1e-3);
     seen.insert(p.ring);
@@ -172,7 +173,7 @@ TEST(LidarSignal, IsThatOfLambertsLawAndReachesAsFarAsStated) {
 TEST(LidarFog, WeakensEchoesByBeersLaw) {
   Scene clear = place_boxes({{kRoom, {}}}), fog = clear;
   fog.air.fog_density = 0.3, fog.air.fog_intensity = 0;
-  const LidarScan without = scan_of(ideal(), clear, standing()), with = scan_of(ideal(), fog, standing());
+  const RangeScan without = scan_of(ideal(), clear, standing()), with = scan_of(ideal(), fog, standing());
   ASSERT_EQ(with.points.size(), without.points.size());
   for (std::size_t i = 0; i < with.points.size(); ++i) {
     const double range = norm(place_of(with.points[i]));
@@ -185,7 +186,7 @@ TEST(LidarRain, WeakensEchoesByItsExtinction) {
   Scene clear = place_boxes({{kRoom, {}}}), rain = clear;
   rain.air.rain_mm_h = 100, rain.air.fog_intensity = 0;
   const double slope = 4.1 * std::pow(100, -0.21), extinction = kPi / 4 * 8000e-6 * 2 / (slope * slope * slope);
-  const LidarScan without = scan_of(ideal(), clear, standing()), with = scan_of(ideal(), rain, standing());
+  const RangeScan without = scan_of(ideal(), clear, standing()), with = scan_of(ideal(), rain, standing());
   ASSERT_EQ(with.points.size(), without.points.size());
   for (std::size_t i = 0; i < with.points.size(); ++i) {
     const double range = norm(place_of(with.points[i]));
@@ -200,10 +201,10 @@ TEST(LidarFog, EchoesWithTheDensityOfWhatItThrowsBack) {
   const double extinction = 0.2;
   fog.air.fog_density = extinction;
   LidarSpec spec = ideal();
-  const LidarScan scan = scan_of(spec, fog, standing());
+  const RangeScan scan = scan_of(spec, fog, standing());
   ASSERT_GT(scan.points.size(), 16u * 1808 - 30);  // the farthest are too weak
   std::vector<double> ranges;
-  for (const LidarPoint& p : scan.points) ranges.push_back(norm(place_of(p)));
+  for (const ScanPoint& p : scan.points) ranges.push_back(norm(place_of(p)));
   std::sort(ranges.begin(), ranges.end());
   const auto density = [&](double r) {
     return std::clamp((r - 0.9) / 0.1, 0.0, 1.0) * std::exp(-2 * extinction * r) / (r * r);
@@ -223,7 +224,7 @@ TEST(LidarFog, EchoesWithTheDensityOfWhatItThrowsBack) {
   room.air.fog_density = 1.5;
   spec.range_at_10_percent = 35;
   std::size_t walls = 0;
-  for (const LidarPoint& p : scan_of(spec, room, standing()).points) walls += off_the_walls(place_of(p), kRoom) < 0.02;
+  for (const ScanPoint& p : scan_of(spec, room, standing()).points) walls += off_the_walls(place_of(p), kRoom) < 0.02;
   EXPECT_EQ(walls, 0u);
 }
 
@@ -235,14 +236,14 @@ Scene step_scene(double far) {
 TEST(LidarDivergence, GivesPointsBetweenNearSurfacesAndTwoEchoesOfFarOnes) {
   LidarSpec spec = ideal(LidarModel::os1);
   spec.divergence_mrad = 5;
-  const auto between = [](const LidarScan& scan, double far) {
-    return std::count_if(scan.points.begin(), scan.points.end(), [far](const LidarPoint& p) {
+  const auto between = [](const RangeScan& scan, double far) {
+    return std::count_if(scan.points.begin(), scan.points.end(), [far](const ScanPoint& p) {
       return std::fabs(p.y) < 1 && double(p.x) > 4.05 && double(p.x) < far - 0.05;
     });
   };
   EXPECT_GT(between(scan_of(spec, step_scene(4.5), standing()), 4.5), 30);
   spec.returns = LidarReturns::dual;
-  const LidarScan apart = scan_of(spec, step_scene(7), standing());
+  const RangeScan apart = scan_of(spec, step_scene(7), standing());
   EXPECT_EQ(between(apart, 7), 0);
   int pairs = 0;
   for (std::size_t i = 1; i < apart.points.size(); ++i)
@@ -256,9 +257,9 @@ TEST(LidarNoise, HasTheStatedDeviation) {
   LidarSpec spec = ideal();
   spec.noise = true, spec.range_noise = 0.02;
   const Scene scene = place_boxes({{kRoom, {}}});
-  const LidarScan scan = scan_of(spec, scene, standing());
+  const RangeScan scan = scan_of(spec, scene, standing());
   double sum = 0, squares = 0;
-  for (const LidarPoint& p : scan.points) {
+  for (const ScanPoint& p : scan.points) {
     const double range = norm(place_of(p));
     const double error = range - wall_distance({}, place_of(p) * (1 / range), kRoom);
     sum += error, squares += error * error;
@@ -268,24 +269,24 @@ TEST(LidarNoise, HasTheStatedDeviation) {
   EXPECT_NEAR(std::sqrt(squares / n), 0.02, 4 * 0.02 / std::sqrt(2 * n));
 }
 
-std::string bytes_of(const LidarScan& scan) {
-  return {reinterpret_cast<const char*>(scan.points.data()), scan.points.size() * sizeof(LidarPoint)};
+std::string bytes_of(const RangeScan& scan) {
+  return {reinterpret_cast<const char*>(scan.points.data()), scan.points.size() * sizeof(ScanPoint)};
 }
 
-TEST(LidarScan, IsTheSameForAnyThreadsAndOrderAndChangesWithTheSeed) {
+TEST(RangeScan, IsTheSameForAnyThreadsAndOrderAndChangesWithTheSeed) {
   Scene scene = make_heap(60, 5);
   scene.air.fog_density = 0.1, scene.air.dust.period = 1;
-  LidarScenario lidar;
+  LidarFigures lidar;
   lidar.returns = LidarReturns::dual;
   const LidarSpec spec = lidar.spec();
   const LidarPlace place{[](std::int64_t stamp_ns) {
                            return Pose{{}, {-4 + double(stamp_ns - 1'000'000'000) * 1e-9, 0, 1.2}};
                          },
                          1'000'000'000};
-  const auto world = std::make_shared<LidarWorld>(scene);
+  const auto world = std::make_shared<RayWorld>(scene);
   Lidar one(spec, world, place, Medium(scene.air, scene.seed), 3, 1);
   for (int i = 0; i < 3; ++i) one.take(i);
-  const LidarScan in_order = one.take(3), alone = scan_of(spec, scene, place, 3, 3);
+  const RangeScan in_order = one.take(3), alone = scan_of(spec, scene, place, 3, 3);
   ASSERT_GT(in_order.points.size(), 1000u);
   EXPECT_TRUE(bytes_of(in_order) == bytes_of(alone));
   EXPECT_FALSE(bytes_of(alone) == bytes_of(scan_of(spec, scene, place, 3, 3, 4)));
@@ -314,19 +315,23 @@ TEST(LidarPattern, OfAnOustersMetadataHasItsOwnBeams) {
       R"({"prod_line":"OS-1","lidar_mode":"512x10","beam_altitude_angles":[14,1.5,-17.25],"beam_azimuth_angles":[3.5,-1.25,0.5],
           "lidar_origin_to_beam_origin_mm":15.8,"lidar_to_sensor_transform":[-1,0,0,0,0,-1,0,0,0,0,1,36.2,0,0,0,1]})";
   const Mission mission = load_mission_text(
-      "return rubble.mission { lidars = { top = rubble.read_calibration('os.json').lidar } }", "m.lua", options);
-  LidarScenario lidar = mission.scenario.lidars.at(0);
-  lidar.noise = false, lidar.range_step = 0, lidar.divergence_mrad = 0, lidar.min_range = 0.01, lidar.range_at_10_percent = 1000;
-  const LidarScan scan = scan_of(lidar.spec(), place_boxes({{kRoom, {}}}), standing());
+      "local top = rubble.read_calibration('os.json').lidar\n"
+      "top.noise, top.range_step, top.divergence_mrad, top.min_range, top.range_at_10_percent = false, 0, 0, 0.01, 1000\n"
+      "return rubble.mission { lidars = { top = top } }", "m.lua", options);
+  SensorSite site;
+  site.world_from_sensor = [](double) { return Pose(); };
+  site.rays = std::make_shared<RayWorld>(place_boxes({{kRoom, {}}}));
+  site.air = std::make_shared<const Medium>(AirSpec(), 1);
+  const RangeScan scan = *mission.scenario.sensors.at(0).start(site, 1)->scan(0);
   ASSERT_EQ(scan.points.size(), 3u * 512);
-  for (const LidarPoint& p : scan.points) {
+  for (const ScanPoint& p : scan.points) {
     const std::size_t row = 2 - p.ring;
     const double encoder = 2 * kPi * (1 - p.column / 512.0), azimuth = encoder - azimuths[row] * kPi / 180, altitude = altitudes[row] * kPi / 180;
     const Vec3 direction(-std::cos(azimuth) * std::cos(altitude), -std::sin(azimuth) * std::cos(altitude), std::sin(altitude));
     const Vec3 origin(-radius * std::cos(encoder), -radius * std::sin(encoder), height);
     ASSERT_LT(norm(origin + direction * wall_distance(origin, direction, kRoom) - place_of(p)), 1e-5) << p.ring << " " << p.column;
   }
-  EXPECT_FALSE(lidar.spec().regular);
+  EXPECT_FALSE(scan.spec->regular);
 }
 
 TEST(LidarPattern, OfBeamsThatCannotBeIsRefused) {

@@ -10,7 +10,7 @@
 #include "render/reference/image_key.h"
 #include "render/renderer.h"
 #include "render/transport/paint_point.h"
-#include "scripting/scenario/lidar_scenario.h"
+#include "scripting/sensors/lidar.h"
 #include "tests/render/test_scene.h"
 
 namespace rubble::testing {
@@ -227,15 +227,15 @@ TEST(Paint, IsKnownToTheLidar) {
     auto paint = make_paint("wall");
     paint->colour = {albedo, 0.5f, 0.5f};
     Scene scene = scene_of(make_sheet(1, paint), {normalized(Quat(0.7071067811865476, 0, -0.7071067811865476, 0)), {3, 0, 0}});
-    LidarScenario lidar;
-    lidar.model = LidarModel::vlp16;
-    lidar.noise = false;
+    LidarFigures lidar;
     lidar.range_step = 0, lidar.divergence_mrad = 0;
+    LidarSpec spec = lidar.spec();
+    spec.noise = false;
     const LidarPlace place{[](std::int64_t) { return Pose(); }, 1'000'000'000};
-    const LidarScan scan = Lidar(lidar.spec(), std::make_shared<LidarWorld>(scene), place, Medium(scene.air, 1), 3, 1).take(0);
+    const RangeScan scan = Lidar(spec, std::make_shared<RayWorld>(scene), place, Medium(scene.air, 1), 3, 1).take(0);
     EXPECT_GT(scan.points.size(), 100u);
     double sum = 0;
-    for (const LidarPoint& p : scan.points) sum += double(p.intensity);
+    for (const ScanPoint& p : scan.points) sum += double(p.intensity);
     return sum / double(scan.points.size());
   };
   EXPECT_NEAR(intensity(0.8f) / intensity(0.2f), 4, 0.05);

@@ -224,14 +224,14 @@ TEST_F(DataFiles, CalibrationsBecomeCameras) {
   EXPECT_EQ(s.cameras[1].rpy_deg, Vec3(0, 0, 0));
   write("opencv.yaml", kOpenCv);
   const Scenario o = load("camera = rubble.read_calibration('opencv.yaml').camera").scenario;
-  EXPECT_EQ(o.camera.height, 480);
-  EXPECT_EQ(o.camera.lens.fy, 531);
-  EXPECT_EQ(o.camera.lens.k3, 0.23);
+  EXPECT_EQ(o.cameras[0].camera.height, 480);
+  EXPECT_EQ(o.cameras[0].camera.lens.fy, 531);
+  EXPECT_EQ(o.cameras[0].camera.lens.k3, 0.23);
   write("os.json", "{\"sensor_info\":{\"prod_line\":\"OS-0-32\"},\"config_params\":{\"lidar_mode\":\"2048x10\"}}");
   const Scenario l = load("lidars = { top = rubble.read_calibration('os.json').lidar }").scenario;
-  ASSERT_EQ(l.lidars.size(), 1u);
-  EXPECT_EQ(l.lidars[0].columns, 2048);
-  EXPECT_EQ(l.lidars[0].channels, 32);
+  ASSERT_EQ(l.sensors.size(), 1u);
+  EXPECT_EQ(l.sensors[0].key(), "lidars.top");
+  EXPECT_EQ(l.sensors[0].figures->most_points(), 32 * 2048);
 }
 
 // Of three rings, so that no model has them.

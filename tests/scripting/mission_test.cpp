@@ -43,8 +43,8 @@ TEST(Mission, SetsWhatItSaysAndNothingElse) {
   EXPECT_EQ(s.pile.mix[1].weight, 1);
   EXPECT_EQ(s.pile.mix[1].scale, (std::array<double, 2>{3, 3}));
   EXPECT_EQ(s.settle.schedule, Schedule::planes);
-  EXPECT_EQ(s.camera.width, 64);
-  EXPECT_EQ(s.camera.height, 1024);
+  EXPECT_EQ(s.cameras[0].camera.width, 64);
+  EXPECT_EQ(s.cameras[0].camera.height, 1024);
   EXPECT_EQ(s.packs, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(pack_folders(mission), (std::vector<std::string>{"a", "b"}));
   ASSERT_EQ(s.trajectory.waypoints.size(), 1u);
@@ -54,9 +54,9 @@ TEST(Mission, SetsWhatItSaysAndNothingElse) {
 // A group with a switch takes it alone; others do not.
 TEST(Mission, AGroupIsSwitchedOnByItsName) {
   const Scenario s = load_text("return rubble.mission { imu = true, lamp = false }").scenario;
-  EXPECT_TRUE(s.imu.on);
+  EXPECT_EQ(s.imus.size(), 1u);
   EXPECT_FALSE(s.lamp.on);
-  EXPECT_FALSE(load_text("return rubble.mission { imu = { rate_hz = 100 } }").scenario.imu.on);
+  EXPECT_TRUE(load_text("return rubble.mission { imu = { rate_hz = 100 } }").scenario.imus.empty());
   const auto watches = [](const std::string& words) {
     return load_text("return rubble.mission { record_settling = " + words + " }")
         .scenario.record_settling.on;
@@ -208,9 +208,9 @@ TEST(MissionOverrides, AreParsedByTheKeysType) {
                          .scenario;
   EXPECT_EQ(s.pile.layers, 3);
   EXPECT_FALSE(s.lamp.on);
-  EXPECT_EQ(s.camera.fov_deg, 60);
-  EXPECT_EQ(s.light.spec.position, Vec3(1, 2, 3));
-  EXPECT_EQ(s.light.spec.type, LightType::spot);
+  EXPECT_EQ(s.cameras[0].camera.fov_deg, 60);
+  EXPECT_EQ(s.lights[0].spec.position, Vec3(1, 2, 3));
+  EXPECT_EQ(s.lights[0].spec.type, LightType::spot);
   EXPECT_EQ(s.pile.spawn_bounds, Vec3(4, 5, 6));
   EXPECT_EQ(s.packs, (std::vector<std::string>{"x", "y"}));
   EXPECT_EQ(s.trajectory.waypoints[0].look_at, Vec3(0, 0, 1));
@@ -255,16 +255,16 @@ TEST(MissionAliases, PublishedNamesInLuaAndSet) {
   EXPECT_EQ(a.pile.spawn_bounds, Vec3(4, 5, 6));
   EXPECT_EQ(a.pile.layers, 7);
   EXPECT_EQ(a.pile.pieces_per_layer, 8);
-  EXPECT_TRUE(a.light.random_rotation);
-  EXPECT_EQ(a.light.spec.type, LightType::point);
-  EXPECT_EQ(a.light.spec.intensity, 9);
-  EXPECT_EQ(a.light.spec.rpy_deg, Vec3(10, 11, 12));
-  EXPECT_EQ(a.light.spec.position, Vec3(13, 14, 15));
+  EXPECT_TRUE(a.lights[0].random_rotation);
+  EXPECT_EQ(a.lights[0].spec.type, LightType::point);
+  EXPECT_EQ(a.lights[0].spec.intensity, 9);
+  EXPECT_EQ(a.lights[0].spec.rpy_deg, Vec3(10, 11, 12));
+  EXPECT_EQ(a.lights[0].spec.position, Vec3(13, 14, 15));
   EXPECT_EQ(a.air.fog_density, 0.5);
   EXPECT_EQ(a.air.fog_intensity, 0.25);
   EXPECT_EQ(a.seed, 16u);
   EXPECT_FALSE(a.outputs.stl);
-  EXPECT_FALSE(load_text("return { setlightrot = true }").scenario.light.random_rotation);
+  EXPECT_FALSE(load_text("return { setlightrot = true }").scenario.lights[0].random_rotation);
 }
 
 TEST(MissionAliases, MistakesInThem) {

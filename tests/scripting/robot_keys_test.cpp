@@ -3,12 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 
 #include "kernel/base/error.h"
 #include "scripting/mission.h"
+#include "scripting/robots/robot_kind.h"
+#include "tests/scripting/robot_figures.h"
 
 namespace rubble {
 namespace robot_keys_test {
+
+using testing::figure_of, testing::number_of;
 
 Scenario scenario_of(const std::string& text) { return load_mission_text(text, "m.lua").scenario; }
 
@@ -28,17 +34,77 @@ TEST(RobotKeys, AConstructorGivesAnEntry) {
     rubble.robot.crawler { flippers = false, friction = 0.6 } },
     robot_run = { duration = 4, debris = "fixed" } })");
   ASSERT_EQ(s.robots.size(), 2u);
-  EXPECT_EQ(s.robots[0].model, RobotKind::snake);
-  EXPECT_EQ(s.robots[0].modules, 8);
+  EXPECT_EQ(kind_of(s.robots[0]).name(), "snake");
+  EXPECT_EQ(number_of(s.robots[0].figures, "modules"), 8);
   EXPECT_EQ(s.robots[0].position.y, 2);
   ASSERT_EQ(s.robots[0].drive.size(), 2u);
-  EXPECT_EQ(s.robots[0].drive[0].gait, GaitKind::rolling);
-  EXPECT_EQ(s.robots[0].drive[1].rate, -3);
-  EXPECT_FALSE(s.robots[1].flippers);
+  EXPECT_EQ(figure_of(s.robots[0].drive[0].figures, "gait").text, "rolling");
+  EXPECT_EQ(number_of(s.robots[0].drive[1].figures, "rate"), -3);
+  EXPECT_FALSE(figure_of(s.robots[1].figures, "flippers").boolean);
   EXPECT_EQ(s.robots[1].friction, 0.6);
   EXPECT_EQ(robot_names(s.robots), (std::vector<std::string>{"adder", "crawler_2"}));
   EXPECT_EQ(s.robot_run.debris, DebrisMotion::fixed);
   EXPECT_EQ(scenario_to_json(scenario_from_json(scenario_to_json(s), "j")), scenario_to_json(s));
+}
+
+// A robot from outside of the tree: keys, commands, what a driver asks for.
+class Sled : public RobotKind {
+ public:
+  struct Figures : FiguresOf<Figures> {
+    double runners = 2;
+    void add_keys(Schema& k) override { k.value("runners", runners, "Sled: number of runners.").between(1, 4); }
+    bool operator==(const Figures& other) const { return runners == other.runners; }
+  };
+  struct Command : FiguresOf<Command> {
+    double pull = 0;
+    void add_keys(Schema& k) override { k.value("pull", pull, "Sled: force.").between(0, 100).unit("N"); }
+    bool operator==(const Command& other) const { return pull == other.pull; }
+  };
+  std::string name() const override { return "sled"; }
+  std::unique_ptr<RobotFigures> figures() const override { return std::make_unique<Figures>(); }
+  std::unique_ptr<RobotFigures> command_figures() const override { return std::make_unique<Command>(); }
+  RobotModel make(const RobotItem& robot) const override {
+    RobotModel model;
+    model.name = "sled with " + std::to_string(int(robot.figures.of<Figures>().runners));
+    return model;
+  }
+  void steer(const TeleopCommand& asked, const RobotItem&, const RobotLeg&, double, RobotLeg& leg) const override {
+    leg.figures.of<Command>().pull = 50 * within(asked.forward, 1);
+  }
+};
+
+void expect_sled_in_missions() {
+  register_robot(std::make_unique<Sled>());
+  EXPECT_THROW(register_robot(std::make_unique<Sled>()), InputError);
+  const Scenario s = scenario_of("return rubble.mission { robots = { { model = \"sled\", runners = 3, drive = { { t = 0, pull = 7 } } }, "
+                                 "{ model = \"vine\", length = 2 } } }");
+  EXPECT_EQ(kind_of(s.robots[0]).make(s.robots[0]).name, "sled with 3");
+  EXPECT_EQ(number_of(s.robots[0].drive[0].figures, "pull"), 7);
+  EXPECT_EQ(number_of(s.robots[1].figures, "length"), 2);
+  EXPECT_EQ(robot_names(s.robots), (std::vector<std::string>{"sled_1", "vine_2"}));
+  EXPECT_EQ(scenario_to_json(scenario_from_json(scenario_to_json(s), "j")), scenario_to_json(s));
+  EXPECT_NE(error_of("return rubble.mission { robots = { { model = \"sled\", runners = 9 } } }").find("robots[1].runners"), std::string::npos);
+  TeleopCommand asked;
+  asked.forward = 2;
+  RobotLeg leg = s.robots[0].drive[0];
+  kind_of(s.robots[0]).steer(asked, s.robots[0], s.robots[0].drive[0], 0.1, leg);
+  EXPECT_EQ(number_of(leg.figures, "pull"), 50);
+  EXPECT_FALSE(same_command(leg, s.robots[0].drive[0]));
+}
+
+// In a process of its own: other tests read documents of the bundled robots alone.
+TEST(RobotKinds, ARobotIsRegisteredFromOutside) {
+  EXPECT_EXIT((expect_sled_in_missions(), std::exit(HasFailure() ? 1 : 0)), ::testing::ExitedWithCode(0), "");
+}
+
+// A robot outside of its list would silently not exist.
+TEST(RobotKinds, EveryFileOfARobotIsInTheList) {
+  for (const auto& file : std::filesystem::directory_iterator(RUBBLE_SOURCE_DIR "/scripting/robots")) {
+    const std::string name = file.path().filename().string(), end = "_kind.cpp";
+    if (name == "robot" + end || name.size() <= end.size() || name.compare(name.size() - end.size(), end.size(), end) != 0) continue;
+    EXPECT_EQ(kind_of(make_robot_item(name.substr(0, name.size() - end.size()))).name() + end, name);
+  }
+  EXPECT_THROW(make_robot_item("hovercraft"), InputError);
 }
 
 TEST(RobotKeys, MistakesAreNamedWithTheirLine) {
@@ -106,12 +172,12 @@ TEST(RobotKeys, AVineHasATubeAndGrows) {
     rubble.robot.vine { pressure = 2e4, radius = 0.04, length = 2.5, link_length = 0.04,
                         drive = { { t = 0, growth = 0.1 }, { t = 3, growth = 0.2, curvature = -1, curvature_up = 0.5 } } } } })");
   ASSERT_EQ(s.robots.size(), 1u);
-  EXPECT_EQ(s.robots[0].model, RobotKind::vine);
-  EXPECT_EQ(s.robots[0].pressure, 2e4);
-  EXPECT_EQ(s.robots[0].radius, 0.04);
-  EXPECT_EQ(s.robots[0].length, 2.5);
-  EXPECT_EQ(s.robots[0].drive[1].curvature, -1);
-  EXPECT_EQ(s.robots[0].drive[1].curvature_up, 0.5);
+  EXPECT_EQ(kind_of(s.robots[0]).name(), "vine");
+  EXPECT_EQ(number_of(s.robots[0].figures, "pressure"), 2e4);
+  EXPECT_EQ(number_of(s.robots[0].figures, "radius"), 0.04);
+  EXPECT_EQ(number_of(s.robots[0].figures, "length"), 2.5);
+  EXPECT_EQ(number_of(s.robots[0].drive[1].figures, "curvature"), -1);
+  EXPECT_EQ(number_of(s.robots[0].drive[1].figures, "curvature_up"), 0.5);
   EXPECT_EQ(scenario_to_json(scenario_from_json(scenario_to_json(s), "j")), scenario_to_json(s));
   const auto vine = [](const std::string& keys) {
     return error_of("return rubble.mission { robots = {\n  rubble.robot.vine { " + keys + " } } }");

@@ -243,7 +243,7 @@ TEST(Sandbox, TablesInCirclesAndTooDeep) {
   EXPECT_EQ(run("local t = {} for i = 1, 1000 do t = { t } end return t").kind, Value::Kind::table);
   EXPECT_EQ(mission_error("local t = {} t.pile = t return t"),
             "m.lua:1: pile.pile: unknown key `pile`: expected one of spawn_position, spawn_bounds, "
-            "spawn_density, layers, pieces_per_layer, mix, placed, terrain, building");
+            "spawn_density, layers, pieces_per_layer, snapshot, mix, placed, terrain, building");
 }
 
 TEST(SandboxDeterminism, PairsGoesInTheOrderOfKeys) {

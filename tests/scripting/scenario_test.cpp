@@ -26,17 +26,17 @@ Scenario unusual() {
   s.pile.placed = {{"pipe", {1, 2, 3}, {10, 20, 30}, 0.7, false}};
   s.settle.schedule = Schedule::planes;
   s.settle.rest_speed = 0.06;
-  s.light.spec.type = LightType::point;
-  s.light.random_rotation = true;
+  s.lights[0].spec.type = LightType::point;
+  s.lights[0].random_rotation = true;
   s.air.fog_density = 0.123456789012345678;
-  s.camera = {640, 480, 70.5, {"label", "flow"}};
-  s.camera.lens = {LensKind::plumb_bob, -0.1, 0.02, 0.001, 0.002, 0.003, 0, 500.5};
-  s.camera.stereo_baseline = 0.11;
-  s.camera.shutter = {0.015, true, 9};
-  s.camera.exposure.mode = ExposureMode::automatic;
-  s.camera.sensor.response = Response::linear;
-  s.depth_sensor.type = DepthSensorType::time_of_flight;
-  s.event_camera.on = true;
+  s.cameras[0].camera = {640, 480, 70.5, {"label", "flow"}};
+  s.cameras[0].camera.lens = {LensKind::plumb_bob, -0.1, 0.02, 0.001, 0.002, 0.003, 0, 500.5};
+  s.cameras[0].camera.stereo_baseline = 0.11;
+  s.cameras[0].camera.shutter = {0.015, true, 9};
+  s.cameras[0].camera.exposure.mode = ExposureMode::automatic;
+  s.cameras[0].camera.sensor.response = Response::linear;
+  s.cameras[0].depth_sensor.type = DepthSensorType::time_of_flight;
+  s.cameras[0].event_camera.on = true;
   s.lamp.on = false;
   s.trajectory.interpolation = Interpolation::linear;
   s.trajectory.waypoints = {{0.0, std::nullopt, {1, 2, 3}, {1, 0, 0}, Vec3{0, 0, 0}},
@@ -94,7 +94,7 @@ TEST(ScenarioValidate, FindsEveryMistake) {
   s.pile.layers = -1;
   s.pile.spawn_bounds = {1, 0, 1};
   s.pile.mix = {{"a", -1, std::array<double, 2>{2, 1}, {}}};
-  s.camera.fov_deg = std::numeric_limits<double>::quiet_NaN();
+  s.cameras[0].camera.fov_deg = std::numeric_limits<double>::quiet_NaN();
   s.trajectory.waypoints[0].position.y = std::numeric_limits<double>::infinity();
   EXPECT_EQ(
       error_of([&] { s.validate(); }),
@@ -148,32 +148,32 @@ TEST(Camera, ContradictionsAreNamed) {
     spoil(s);
     return error_of([&] { s.validate(); });
   };
-  EXPECT_EQ(mistake([](Scenario& s) { s.camera.fov_deg = 180; }),
+  EXPECT_EQ(mistake([](Scenario& s) { s.cameras[0].camera.fov_deg = 180; }),
             "camera.fov_deg: too wide for a flat image: expected at most 170 (or "
             "camera.lens.model = \"fisheye\")");
   EXPECT_EQ(mistake([](Scenario& s) {
-              s.camera.fov_deg = 180;
-              s.camera.lens.model = LensKind::fisheye;
+              s.cameras[0].camera.fov_deg = 180;
+              s.cameras[0].camera.lens.model = LensKind::fisheye;
             }),
             "");
   EXPECT_NE(mistake([](Scenario& s) {
-              s.camera.lens.model = LensKind::fisheye;
-              s.camera.lens.k1 = -2;
+              s.cameras[0].camera.lens.model = LensKind::fisheye;
+              s.cameras[0].camera.lens.k1 = -2;
             }).find("folds back"),
             std::string::npos);
-  EXPECT_NE(mistake([](Scenario& s) { s.camera.lens.k1 = 0.1; }).find("no distortion"),
+  EXPECT_NE(mistake([](Scenario& s) { s.cameras[0].camera.lens.k1 = 0.1; }).find("no distortion"),
             std::string::npos);
-  EXPECT_NE(mistake([](Scenario& s) { s.camera.shutter.motion_blur = true; })
+  EXPECT_NE(mistake([](Scenario& s) { s.cameras[0].camera.shutter.motion_blur = true; })
                 .find("camera.shutter.motion_blur: an ideal image has no exposure time"),
             std::string::npos);
-  EXPECT_NE(mistake([](Scenario& s) { s.depth_sensor.min_range = 7; }).find("the range is empty"),
+  EXPECT_NE(mistake([](Scenario& s) { s.cameras[0].depth_sensor.min_range = 7; }).find("the range is empty"),
             std::string::npos);
 }
 
 TEST(Light, RandomRotationFollowsTheSeed) {
   Scenario s;
-  EXPECT_EQ(resolve_light(s).rpy_deg, s.light.spec.rpy_deg);
-  s.light.random_rotation = true;
+  EXPECT_EQ(resolve_light(s).rpy_deg, s.lights[0].spec.rpy_deg);
+  s.lights[0].random_rotation = true;
   const Vec3 first = resolve_light(s).rpy_deg;
   EXPECT_EQ(resolve_light(s).rpy_deg, first);
   for (s.seed = 1; s.seed < 100; ++s.seed) {

@@ -31,8 +31,8 @@ TEST(Scripts, AllLoadAndSample) {
 TEST(Scripts, TheFirstPileIsLargeEnough) {
   const Scenario s = load("first_pile.lua").scenario;
   EXPECT_GE(s.pile.layers * s.pile.pieces_per_layer, 1200);
-  EXPECT_EQ(s.camera.width, 1024);
-  EXPECT_EQ(s.camera.height, 1024);
+  EXPECT_EQ(s.cameras[0].camera.width, 1024);
+  EXPECT_EQ(s.cameras[0].camera.height, 1024);
   EXPECT_EQ(s.trajectory.rate_hz, 30);
   EXPECT_GE(sample_trajectory(s.trajectory, s.start_ns).size(), 90u);
   EXPECT_FALSE(s.pile.placed.empty());
@@ -54,33 +54,33 @@ TEST(Scripts, ThePaperIsAsPublished) {
 TEST(Scripts, SmallIsSmall) {
   const Scenario s = load("small.lua").scenario;
   EXPECT_EQ(s.pile.layers * s.pile.pieces_per_layer, 40);
-  EXPECT_EQ(s.camera.width, 160);
-  EXPECT_EQ(s.camera.height, 120);
+  EXPECT_EQ(s.cameras[0].camera.width, 160);
+  EXPECT_EQ(s.cameras[0].camera.height, 120);
   EXPECT_EQ(sample_trajectory(s.trajectory, s.start_ns).size(), 5u);
 }
 
 TEST(Scripts, FeaturesAreShown) {
-  EXPECT_EQ(load("lights.lua").scenario.light.spec.type, LightType::spot);
-  EXPECT_TRUE(load("random_light.lua").scenario.light.random_rotation);
+  EXPECT_EQ(load("lights.lua").scenario.lights[0].spec.type, LightType::spot);
+  EXPECT_TRUE(load("random_light.lua").scenario.lights[0].random_rotation);
   EXPECT_GT(load("fog.lua").scenario.air.fog_density, 0);
-  EXPECT_EQ(load("dusk.lua").scenario.light.spec.type, LightType::sun);
-  EXPECT_EQ(load("dusk.lua").scenario.lights.size(), 2u);
-  EXPECT_EQ(load("reference.lua").scenario.camera.colour.quality, RenderQuality::reference);
+  EXPECT_EQ(load("dusk.lua").scenario.lights[0].spec.type, LightType::sun);
+  EXPECT_EQ(load("dusk.lua").scenario.lights.size(), 3u);
+  EXPECT_EQ(load("reference.lua").scenario.cameras[0].camera.colour.quality, RenderQuality::reference);
   EXPECT_GT(load("dust.lua").scenario.air.dust.period, 0);
   EXPECT_TRUE(load("record_settling.lua").scenario.record_settling.on);
   EXPECT_EQ(load("rain.lua").scenario.settle.schedule, Schedule::planes);
   EXPECT_EQ(load("straight_legs.lua").scenario.trajectory.interpolation, Interpolation::linear);
   EXPECT_EQ(load("outputs.lua").scenario.outputs.depth, DepthEncoding::metres);
-  EXPECT_EQ(load("fisheye.lua").scenario.camera.intrinsics().lens, LensModel::fisheye);
-  EXPECT_EQ(load("distortion.lua").scenario.camera.intrinsics().distortion[0], -0.29);
-  EXPECT_GT(load("stereo.lua").scenario.camera.stereo_baseline, 0);
-  EXPECT_TRUE(load("blur.lua").scenario.camera.shutter.motion_blur);
-  EXPECT_GT(load("rolling_shutter.lua").scenario.camera.shutter.readout, 0);
-  EXPECT_EQ(load("exposure.lua").scenario.camera.exposure.mode, ExposureMode::automatic);
-  EXPECT_EQ(load("skies.lua").scenario.light.sky.type, SkyType::cloudy);
-  EXPECT_TRUE(load("optics.lua").scenario.camera.optics.any());
-  EXPECT_EQ(load("depth_sensor.lua").scenario.depth_sensor.type, DepthSensorType::structured_light);
-  EXPECT_TRUE(load("events.lua").scenario.event_camera.on);
+  EXPECT_EQ(load("fisheye.lua").scenario.cameras[0].camera.intrinsics().lens, LensModel::fisheye);
+  EXPECT_EQ(load("distortion.lua").scenario.cameras[0].camera.intrinsics().distortion[0], -0.29);
+  EXPECT_GT(load("stereo.lua").scenario.cameras[0].camera.stereo_baseline, 0);
+  EXPECT_TRUE(load("blur.lua").scenario.cameras[0].camera.shutter.motion_blur);
+  EXPECT_GT(load("rolling_shutter.lua").scenario.cameras[0].camera.shutter.readout, 0);
+  EXPECT_EQ(load("exposure.lua").scenario.cameras[0].camera.exposure.mode, ExposureMode::automatic);
+  EXPECT_EQ(load("skies.lua").scenario.lights[0].sky.type, SkyType::cloudy);
+  EXPECT_TRUE(load("optics.lua").scenario.cameras[0].camera.optics.any());
+  EXPECT_EQ(load("depth_sensor.lua").scenario.cameras[0].depth_sensor.type, DepthSensorType::structured_light);
+  EXPECT_TRUE(load("events.lua").scenario.cameras[0].event_camera.on);
   EXPECT_EQ(load("published_names.lua").scenario.pile.layers, 2);
 }
 

@@ -3,11 +3,14 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <set>
 
 #include "io/ros/ros_messages.h"
 #include "kernel/base/portable_math.h"
+#include "render/lidar/lidar.h"
 #include "scripting/mission.h"
 #include "scripting/sensors/gps_constellation.h"
 #include "scripting/sensors/sensor_error.h"
@@ -270,12 +273,20 @@ TEST(Sensors, EveryKindHasItsFileAndItsColumns) {
     EXPECT_FALSE(kind->topics().empty()) << kind->key();
     SensorSite site = site_at({});
     site.contact_force = [](const auto&, double, double) { return 0.0; };
-    EXPECT_EQ(kind->start(site, std::nullopt, 10)->read(0).size(), kind->columns().size()) << kind->key();
+    site.rays = std::make_shared<RayWorld>(Scene());
+    site.air = std::make_shared<const Medium>(AirSpec(), 1);
+    const auto meter = kind->start(site, std::nullopt, 10);
+    EXPECT_EQ(meter->read(0).size(), kind->columns().size()) << kind->key();
+    const auto scan = meter->scan(0);
+    EXPECT_EQ(scan != nullptr, kind->columns().empty()) << "numbers or scans: " << kind->key();
+    EXPECT_LE(scan ? double(scan->points.size()) : 0, kind->most_points()) << kind->key();
   }
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(RUBBLE_SOURCE_DIR "/scripting/sensors")) {
-    const std::string name = entry.path().stem().string();
-    if (entry.path().extension() == ".cpp" && name.rfind("sensor_", 0) != 0 && name.rfind("gps_", 0) != 0) ++files;
+    if (entry.path().extension() != ".cpp") continue;
+    std::ifstream in(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    files += text.find("std::unique_ptr<SensorKind> make_" + entry.path().stem().string() + "()") != std::string::npos;
   }
   EXPECT_EQ(files, sensor_kinds().size()) << "a kind without its name in RUBBLE_SENSORS of scripting/CMakeLists.txt";
 }
@@ -287,6 +298,25 @@ std::string mistakes_of(const std::string& lua) {
     return error.what();
   }
   return "";
+}
+
+TEST(Sensors, TheOnlyOneOfItsTopicHasItWithoutItsName) {
+  const auto topics = [](const std::string& lua) {
+    const Scenario s = load_mission_text("return rubble.mission { " + lua + " }", "m.lua").scenario;
+    std::vector<std::string> list;
+    for (const SensorItem& sensor : s.sensors) list.push_back(topic_of(s.sensors, sensor));
+    return list;
+  };
+  using List = std::vector<std::string>;
+  EXPECT_EQ(topics("lidars = { a = {}, flat = { model = 'utm30lx' } }, gnss = { g = {} }"), (List{"/points", "/scan", "/g"}));
+  EXPECT_EQ(topics("lidars = { a = {}, b = { model = 'os0' } }"), (List{"/a/points", "/b/points"}));
+  EXPECT_EQ(topics("lidars = { a = {}, b = { topic = '/own' } }"), (List{"/points", "/own"}));
+}
+
+TEST(Sensors, FilesOfScansNeedASensorThatScans) {
+  EXPECT_NE(mistakes_of("return rubble.mission { gnss = { g = {} }, outputs = { pcd = true } }")
+                .find("outputs.pcd: there is nothing to write: expected a mission with `lidars`"), std::string::npos);
+  EXPECT_EQ(mistakes_of("return rubble.mission { lidars = { l = {} }, outputs = { pcd = true, kitti = true } }"), "");
 }
 
 TEST(Sensors, MistakesNameTheirKeys) {

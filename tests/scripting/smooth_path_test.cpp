@@ -18,7 +18,7 @@ constexpr double kGoal = 0.01;  // after 10 s; unit: m
 const std::string kScripts = RUBBLE_SOURCE_DIR "/scripts";
 
 Scenario with_imu(Scenario scenario) {
-  scenario.imu.on = true;
+  scenario.imus = {ImuScenario{}};
   return scenario;
 }
 

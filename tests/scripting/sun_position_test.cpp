@@ -79,23 +79,23 @@ TEST(SunPosition, CrossesTheEquatorAtTheEquinox) {
 
 TEST(SkyKeys, TheSunFollowsFromPlaceAndTime) {
   Scenario s;
-  s.light.spec.type = LightType::sun;
-  s.light.latitude_deg = 39.742476, s.light.longitude_deg = -105.1786;
-  s.light.time = "2003-10-17T19:30:30Z";
+  s.lights[0].spec.type = LightType::sun;
+  s.lights[0].latitude_deg = 39.742476, s.lights[0].longitude_deg = -105.1786;
+  s.lights[0].time = "2003-10-17T19:30:30Z";
   s.validate();
   EXPECT_NEAR(resolve_light(s).elevation_deg, 39.888, 0.02);
   // X east, Y north: south-south-west is 194 degrees clockwise of Y.
   EXPECT_NEAR(std::cos((resolve_light(s).azimuth_deg - (90 - 194.34)) * M_PI / 180), 1, 1e-6);
-  s.light.north_deg = 0;  // X is north
+  s.lights[0].north_deg = 0;  // X is north
   EXPECT_NEAR(std::cos((resolve_light(s).azimuth_deg + 194.34) * M_PI / 180), 1, 1e-6);
-  s.light.time = "2003-10-17T07:30:30Z";
+  s.lights[0].time = "2003-10-17T07:30:30Z";
   EXPECT_EQ(resolve_light(s).elevation_deg, -18);  // deep night
 }
 
 template <typename Change>
 std::string mistake(Change change) {
   Scenario s;
-  change(s.light);
+  change(s.lights[0]);
   return error_of([&] { s.validate(); });
 }
 

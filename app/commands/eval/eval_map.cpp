@@ -38,16 +38,14 @@ double sample_spacing(const MapRequest& request) {
 RecordedViews load_views(const FinishedRun& saved, const MapRequest& request) {
   const Scenario scenario = stated_scenario(saved.manifest.provenance);
   RecordedViews views;
-  for (const MountedCamera& camera : all_cameras(scenario)) {
+  for (const MountedCamera& camera : scenario.cameras) {
     const DepthSensorSpec& sensor = camera.depth_sensor;
     ViewRange range;
     if (sensor.type != DepthSensorType::none && sensor.type != DepthSensorType::ideal)
       range = {sensor.min_range, sensor.max_range};
     if (request.range) range.farthest = *request.range;
     const Intrinsics intrinsics = camera.camera.intrinsics();
-    const std::string folder =
-        scenario.cameras.empty() ? saved.folder : saved.folder + "/cameras/" + camera.name;
-    views.add({intrinsics, Lens(intrinsics), range}, load_true_poses(folder));
+    views.add({intrinsics, Lens(intrinsics), range}, load_true_poses(camera.folder_in(saved.folder)));
   }
   return views;
 }

@@ -47,6 +47,7 @@ void describe(const std::string& path, const RecordedTrajectory& track) {
 void print_table(const TrajectoryError& e) {
   print_out("pairs                       %d\n", e.pairs);
   print_out("ATE, rigid alignment        %.6f m\n", e.ate_rmse_se3);
+  print_out("  mean, median, maximum     %.6f, %.6f, %.6f m\n", e.ate_se3.mean, e.ate_se3.median, e.ate_se3.max);
   print_out("ATE, aligned with scale     %.6f m (scale %.6f)\n", e.ate_rmse_sim3, e.sim3_scale);
   print_out("RPE, translation            %.6f m\n", e.rpe_trans_rmse);
   print_out("RPE, rotation               %.6f degrees\n", e.rpe_rot_rmse_deg);
@@ -75,6 +76,9 @@ ExitCode eval_trajectory(const TrajectoryRequest& request) {
   }
   const nlohmann::ordered_json json{{"pairs", error.pairs},
                                     {"ate_rmse_se3_m", error.ate_rmse_se3},
+                                    {"ate_mean_se3_m", error.ate_se3.mean},
+                                    {"ate_median_se3_m", error.ate_se3.median},
+                                    {"ate_max_se3_m", error.ate_se3.max},
                                     {"ate_rmse_sim3_m", error.ate_rmse_sim3},
                                     {"sim3_scale", error.sim3_scale},
                                     {"rpe_trans_rmse_m", error.rpe_trans_rmse},

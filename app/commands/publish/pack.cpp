@@ -6,6 +6,7 @@
 #include "app/card/slam_settings.h"
 #include "app/card/viewer_settings.h"
 #include "app/command_line/command.h"
+#include "app/support/json_members.h"
 #include "app/support/print.h"
 #include "io/base/atomic_file.h"
 #include "kernel/base/system/output_files.h"
@@ -24,15 +25,28 @@ struct PackRequest {
 
 using Files = std::map<std::string, std::string>;  // name in the folder -> text
 
+// As the run's robots.json has them; empty without robots.
+FirstLinks find_first_links(const std::string& folder, const Scenario& scenario) {
+  FirstLinks links;
+  if (scenario.robots.empty()) return links;
+  const std::string path = folder + "/robots/robots.json";
+  const nlohmann::ordered_json json = parse_json_text(read_whole_file(path), path);
+  for (const JsonMembers& robot : JsonMembers(json, path).list("robots")) {
+    const std::vector<JsonMembers> of = robot.list("links");
+    if (!of.empty()) links[robot.text("name")] = of.front().text("name");
+  }
+  return links;
+}
+
 Files make_run_files(const PackRequest& request) {
   const FinishedRun saved = open_finished_run(request.folder);
   Files files;
   if (request.settings) {
     const Scenario scenario = stated_scenario(saved.manifest.provenance);
-    for (const auto& settings : {make_slam_settings(scenario), make_viewer_settings(scenario)})
+    for (const auto& settings : {make_slam_settings(scenario, find_first_links(saved.folder, scenario)), make_viewer_settings(scenario)})
       for (const auto& [name, text] : settings) files["settings/" + name] = text;
-    if (!all_imus(scenario).empty() && files.count("settings/kalibr/imu.yaml") == 0)
-      print_err("warning: no inertial unit rides with the first camera, so the settings of SLAM programs describe none\n");
+    if (!scenario.imus.empty() && files.count("settings/kalibr/imu.yaml") == 0)
+      print_err("warning: no inertial unit rides with any camera, so the settings of SLAM programs describe none\n");
   }
   if (request.card) files["README.md"] = make_dataset_card(saved, request.text);
   files["SHA256SUMS"] = make_checksums(saved, files);

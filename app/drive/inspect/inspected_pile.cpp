@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/pipeline/stages.h"
+#include "kernel/settling/building_collapse.h"
 
 namespace rubble {
 namespace {
@@ -18,7 +19,7 @@ SettleOptions with_threads(SettleOptions options, int threads) {
 
 InspectedPile::InspectedPile(const ResolvedMission& mission, int threads)
     : mission_(mission),
-      options_(with_threads(mission.pile_scenario.settle, threads)),
+      options_(with_threads(mission.scenario.settle, threads)),
       pile_(make_pile(mission)),
       world_(pile_.types, calc_world_options(options_), pile_.assemblies) {}
 
@@ -44,6 +45,7 @@ void InspectedPile::settle(const Between& between) {
 
 PileState InspectedPile::all_pieces() const {
   PileState all = state();
+  if (pile_.building.given()) all.building = find_building_state(world_, pile_);
   int layers = 0;  // that are there
   for (const PieceState& piece : all.pieces) layers = std::max(layers, piece.layer + 1);
   for (std::size_t k = std::size_t(layers); k < pile_.layers.size(); ++k)

@@ -73,26 +73,24 @@ void prepare_inspection_folder(const std::string& folder, bool force) {
 // What is drawn: a plain camera, and quickly, since all that can move is lit anew for every picture.
 Scenario choose_drawn(const Scenario& of, int width, int height) {
   Scenario drawn = of;
-  drawn.cameras.clear();
-  drawn.camera = {};
-  drawn.camera.width = width, drawn.camera.height = height, drawn.camera.fov_deg = kFieldOfView;
-  drawn.camera.channels = {"instance"};
-  drawn.camera.colour.quality = RenderQuality::draft;
-  drawn.depth_sensor = {};
-  drawn.event_camera = {};
+  drawn.cameras = {MountedCamera{}};
+  CameraScenario& camera = drawn.cameras.front().camera;
+  camera.width = width, camera.height = height, camera.fov_deg = kFieldOfView;
+  camera.channels = {"instance"};
+  camera.colour.quality = RenderQuality::draft;
   drawn.lamp.on = false;
   return drawn;
 }
 
-// From a corner, so that all of it is in view.
-DrivenPose look_over(const PileState& pile) {
+// From a corner, so that all of it is in view but for terrain.
+DrivenPose look_over(const PileState& pile, const std::vector<PieceType>& types) {
   Aabb box;
   box.include({-0.5, -0.5, 0}), box.include({0.5, 0.5, 0.5});
   for (const PieceState& piece : pile.pieces)
-    if (piece.status != PieceStatus::fixed && piece.status != PieceStatus::lost) box.include(piece.world_from_body.translation);
+    if (!types[std::size_t(piece.type)].surface && piece.status != PieceStatus::lost) box.include(piece.world_from_body.translation);
   const Vec3 extent = box.max - box.min, middle = (box.max + box.min) * 0.5;
   const double reach = std::max({extent.x, extent.y, extent.z}), away = 0.8 * reach + 1.2;
-  const Vec3 target{middle.x, middle.y, 0.35 * box.max.z};
+  const Vec3 target{middle.x, middle.y, 0.25 * box.max.z};
   const Vec3 from{target.x - 0.8 * away, target.y - 0.6 * away, target.z + 0.45 * away};
   const Vec3 d = target - from;
   constexpr double kDegrees = 180 / portable::kPi;
@@ -126,7 +124,7 @@ const std::vector<KeyHelp>& all_inspector_help() {
       {"hulls, contacts", "V, C", ""},
       {"views of cameras", "O", ""},
       {"map of voids", "M", ""},
-      {"links, LiDAR echoes", "G, B", ""},
+      {"links, echoes of scans", "G, B", ""},
       {"lamp", "L", "A"},
       {"save a picture", "P", "press the left stick"},
       {"this help", "H or F1", "X"},
@@ -152,7 +150,7 @@ bool Inspector::leaving() const {
   return quit_ || next_ || stop_requested() || (request_.steps > 0 && turns_ >= request_.steps);
 }
 
-double Inspector::step_time() const { return robots_ ? robots_->step_time() : mission_->pile_scenario.settle.step; }
+double Inspector::step_time() const { return robots_ ? robots_->step_time() : mission_->scenario.settle.step; }
 
 void Inspector::enter(std::optional<std::uint64_t> seed) {
   window_.set_title("rubble inspect: loading");
@@ -165,7 +163,7 @@ void Inspector::enter(std::optional<std::uint64_t> seed) {
   overlay_ = std::make_unique<Overlay>(mission_->assets.types);
   voids_ = std::make_unique<VoidSurvey>(mission_->scenario.voids, mission_->assets);
   spring_.release();
-  flight_.clear(), scan_ = {}, touched_ = 0;
+  flight_.clear(), scan_.reset(), touched_ = 0;
   window_.set_title("rubble inspect: " + of.mission + ", seed " + std::to_string(mission_->scenario.seed));
 }
 
@@ -183,7 +181,7 @@ void Inspector::draw_scene(const Scene& scene) {
 
 void Inspector::open_eye() {
   const Scenario drawn = choose_drawn(mission_->scenario, request_.width, request_.height);
-  eye_ = std::make_unique<Camera>(*renderer_, build_camera(drawn, all_cameras(drawn).front(), run_->threads()), Flight{});
+  eye_ = std::make_unique<Camera>(*renderer_, build_camera(drawn.cameras.front(), drawn.seed, run_->threads()), Flight{});
   frames_ = 0;
 }
 
@@ -197,7 +195,7 @@ void Inspector::run() {
         drawn_ = pile_->all_pieces();
         lay_surroundings(mission_->scenario, mission_->assets, drawn_);
         draw_scene(build_live_scene(choose_drawn(mission_->scenario, request_.width, request_.height), mission_->assets, drawn_,
-                                    {}, [this](int id, std::int64_t) -> std::optional<Pose> {
+                                    {}, mission_->scenario.start_ns, [this](int id, std::int64_t) -> std::optional<Pose> {
                                       if (id >= world().size()) return std::nullopt;  // it falls later
                                       const PieceState piece = world().piece(id);
                                       if (piece.status == PieceStatus::lost) return std::nullopt;
@@ -206,7 +204,7 @@ void Inspector::run() {
         if (!camera_) {
           DriveLimits limits;
           limits.speed = 2;
-          camera_ = std::make_unique<DrivenCamera>(look_over(drawn_), Plan::ghost, 0.1, nothing(), limits);
+          camera_ = std::make_unique<DrivenCamera>(look_over(drawn_, mission_->assets.types), Plan::ghost, 0.1, nothing(), limits);
           print_err("inspect: ready, H for help\n");
         }
       }
@@ -287,7 +285,7 @@ void Inspector::turn() {
   camera_->step(input, 1 / kPictureRate);
   if (robots_)
     for (const Sample& sample : robots_->observe())
-      if (const auto* scan = std::get_if<LidarScan>(&sample)) scan_ = *scan;
+      if (const auto* reading = std::get_if<Reading>(&sample); reading && reading->scan) scan_ = reading->scan;
   const std::int64_t stamp = mission_->scenario.start_ns + std::int64_t(double(frames_) * 1e9 / kPictureRate);
   eye_->fly_on(stamp, camera_->pose().world_from_camera());
   frame_ = eye_->take(frames_++);
@@ -362,7 +360,7 @@ void Inspector::act(DriveAction action) {
       return;
     case DriveAction::scans:
       choice_.scans = !choice_.scans;
-      if (choice_.scans && !robots_) say("echoes are those of LiDARs on robots, which come when the pile rests");
+      if (choice_.scans && !robots_) say("echoes are those of scans on robots, which come when the pile rests");
       return;
     case DriveAction::cameras:
       choice_.cameras = !choice_.cameras;
@@ -446,7 +444,7 @@ void Inspector::add_cameras(std::vector<OverlayLine>& lines) {
       if (flight_.empty()) return std::nullopt;
       return flight_[frame].world_from_camera;
     };
-    for (const PlacedCamera& camera : place_cameras(scenario, carrier_of)) add_frustum(camera, kFrustumLength, lines);
+    for (const PlacedCamera& camera : place_cameras(scenario.cameras, carrier_of)) add_frustum(camera, kFrustumLength, lines);
   }
 }
 
@@ -456,7 +454,7 @@ std::vector<PictureLine> Inspector::draw_overlay() {
   if (choice_.hulls && !robots_) overlay_->add_hulls(pile_->state(), nullptr, camera_->pose().position, lines, kHullReach);
   if (choice_.contacts) Overlay::add_all_contacts(world(), step_time(), camera_->pose().position, lines);
   if (choice_.frames) Overlay::add_frames(world(), lines);
-  if (choice_.scans) Overlay::add_scan(scan_, lines);
+  if (choice_.scans && scan_) Overlay::add_scan(*scan_, lines);
   if (choice_.cameras) add_cameras(lines);
   if (choice_.voids) {
     try {
@@ -477,7 +475,7 @@ std::vector<PictureLabel> Inspector::legend() const {
   if (choice_.hulls) rows.push_back({"hulls", Overlay::kHullColour});
   if (choice_.contacts) rows.push_back({"contact forces, 0.1 mm/N", Overlay::kContactColour});
   if (choice_.cameras)
-    for (const PlacedCamera& camera : place_cameras(mission_->scenario, [](const MountedCamera&) { return Pose(); }))
+    for (const PlacedCamera& camera : place_cameras(mission_->scenario.cameras, [](const MountedCamera&) { return Pose(); }))
       rows.push_back({"view of " + camera.name, camera.colour});
   if (choice_.voids) rows.push_back(voids_->label());
   if (spring_.holds()) {

@@ -92,7 +92,7 @@ class Inspector {
   Frame frame_;
   DrivePicture picture_;
   RgbImage shown_;
-  LidarScan scan_;  // the last
+  std::shared_ptr<const RangeScan> scan_;  // the last
   int frames_ = 0, pictures_ = 0, moments_ = 0, turns_ = 0;
   double owed_ = 0;  // time of the world that the pictures so far ask for; unit: s
   double rate_ = 0;  // pictures a second that are reached

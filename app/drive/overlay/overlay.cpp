@@ -101,13 +101,11 @@ void Overlay::add_frames(const World& world, std::vector<OverlayLine>& lines) {
       }
 }
 
-void Overlay::add_scan(const LidarScan& scan, std::vector<OverlayLine>& lines) {
-  if (scan.world_from_lidar.empty()) return;
+void Overlay::add_scan(const RangeScan& scan, std::vector<OverlayLine>& lines) {
+  if (scan.world_from_sensor.empty()) return;
   const std::size_t every = scan.points.size() / kMostEchoes + 1;
   for (std::size_t i = 0; i < scan.points.size(); i += every) {
-    const LidarPoint& p = scan.points[i];
-    const auto sample = std::min(std::size_t(double(p.time) * 1e9 / double(LidarScan::kMotionStep) + 0.5), scan.world_from_lidar.size() - 1);
-    const Vec3 at = scan.world_from_lidar[sample] * Vec3{p.x, p.y, p.z};
+    const Vec3 at = scan.place(scan.points[i]);
     const double share = std::clamp(at.z / 2, 0.0, 1.0);
     const std::array<std::uint8_t, 3> colour{std::uint8_t(255 * share), 160, std::uint8_t(255 * (1 - share))};
     for (const Vec3& half : {Vec3{kCross / 2, 0, 0}, Vec3{0, kCross / 2, 0}, Vec3{0, 0, kCross / 2}})

@@ -1,4 +1,4 @@
-// Lines over what a drive shows: collision hulls, contacts with their forces, frames of links, points of LiDARs.
+// Lines over what a drive shows: collision hulls, contacts with their forces, frames of links, echoes of scans.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 #include "kernel/model/pile_state.h"
 #include "kernel/world/world.h"
 #include "render/scene/frame.h"
-#include "render/scene/lidar_scan.h"
+#include "render/scene/range_scan.h"
 
 namespace rubble {
 
@@ -48,7 +48,7 @@ class Overlay {
   // X red, Y green, Z blue, 10 cm long, of every link.
   static void add_frames(const World& world, std::vector<OverlayLine>& lines);
   // Echoes as small crosses, by height from blue to red.
-  static void add_scan(const LidarScan& scan, std::vector<OverlayLine>& lines);
+  static void add_scan(const RangeScan& scan, std::vector<OverlayLine>& lines);
 
  private:
   const Shape& shape_of(int type);

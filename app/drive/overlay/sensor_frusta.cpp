@@ -14,10 +14,9 @@ constexpr std::array<std::array<std::uint8_t, 3>, 6> kCameraColours{
 
 }  // namespace
 
-std::vector<PlacedCamera> place_cameras(const Scenario& scenario,
+std::vector<PlacedCamera> place_cameras(const std::vector<MountedCamera>& cameras,
                                         const std::function<std::optional<Pose>(const MountedCamera&)>& carrier_of) {
   std::vector<PlacedCamera> placed;
-  const std::vector<MountedCamera> cameras = all_cameras(scenario);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const std::optional<Pose> carrier = carrier_of(cameras[i]);
     if (!carrier) continue;

@@ -21,9 +21,9 @@ struct PlacedCamera {
   std::array<std::uint8_t, 3> colour{};  // of its lines
 };
 
-// Cameras of all_cameras() on carriers that are known now: carrier_of gives where a camera's carrier is; nothing: the
+// Cameras on carriers that are known now: carrier_of gives where a camera's carrier is; nothing: the
 // camera is left out. Colours differ.
-std::vector<PlacedCamera> place_cameras(const Scenario& scenario,
+std::vector<PlacedCamera> place_cameras(const std::vector<MountedCamera>& cameras,
                                         const std::function<std::optional<Pose>(const MountedCamera&)>& carrier_of);
 
 // The border of its image in the plane at `distance`, bent where the lens distorts, lines to its corners, and a tick on its

@@ -55,7 +55,7 @@ void check_limits(const RobotJoint& joint, const JointTrajectoryCommand& traject
 void JointCourses::begin(const JointTrajectoryCommand& trajectory, const RobotModel& model, const RobotState& state,
                          double time) {
   if (model.tube)
-    refuse("joint_names", "a vine has no joints that can be asked for positions", "`growth` and `curvature`",
+    refuse("joint_names", "a robot that grows has no joints that can be asked for positions", "/cmd_vel",
            std::to_string(trajectory.joints.size()) + " joints", "/cmd_vel makes it grow and bend");
   if (trajectory.points.empty()) return end();
   if (trajectory.joints.empty()) refuse("joint_names", "no joint is named", "names of joints", "an empty list");
@@ -96,11 +96,11 @@ JointCourses::Knot JointCourses::at(const Course& course, double time) {
   return {time, position, velocity, false};
 }
 
-void JointCourses::ask(double time, RobotWish& wish) const {
-  wish.joints.clear(), wish.joint_names.clear();
+void JointCourses::ask(double time, RobotLeg& leg) const {
+  leg.joints.clear(), leg.joint_names.clear();
   for (const auto& [joint, course] : courses_) {
-    wish.joint_names.push_back(course.first);
-    wish.joints.push_back(std::clamp(at(course.second, time).position, -kMost, kMost));
+    leg.joint_names.push_back(course.first);
+    leg.joints.push_back(std::clamp(at(course.second, time).position, -kMost, kMost));
   }
 }
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "app/drive/robots/robot_wish.h"
 #include "io/live/drive_commands.h"
 #include "kernel/model/robot.h"
+#include "scripting/robots/robot_item.h"
 
 namespace rubble {
 
@@ -22,8 +22,8 @@ class JointCourses {
   void end() { courses_.clear(); }
   bool empty() const { return courses_.empty(); }
 
-  // Joints and their names in the wish.
-  void ask(double time, RobotWish& wish) const;
+  // Joints and their names in the command.
+  void ask(double time, RobotLeg& leg) const;
 
  private:
   struct Knot {

@@ -50,15 +50,16 @@ RobotDrive::RobotDrive(ResolvedMission mission, const PileState& pile, const std
     ride.position = kBehind, ride.rpy_deg = kNoseDown;
   }
   session_ = std::make_unique<Session>(mission_, pile, std::move(made), context, options);
-  session_->set_controller(driven_, [this](const RobotSense& sense) { return follow_wish(sense); });
+  session_->set_controller(driven_, [this](const RobotSense& sense) { return control(sense); });
   restart();
 }
 
-RobotCommand RobotDrive::follow_wish(const RobotSense& sense) {
+RobotCommand RobotDrive::control(const RobotSense& sense) {
   std::vector<RobotLeg>& legs = kept_;
-  RobotWish wish = wish_;
-  if (!courses_.empty()) courses_.ask(sense.time, wish);
-  const RobotLeg leg = make_leg(wish, item_, legs.back(), sense.time, sense.time - asked_at_);
+  RobotLeg leg = legs.back();
+  leg.t = sense.time;
+  kind_of(item_).steer(asked_, item_, legs.back(), sense.time - asked_at_, leg);
+  courses_.ask(sense.time, leg);
   asked_at_ = sense.time;
   if (!same_command(leg, legs.back())) {
     if (leg.t <= legs.back().t) legs.pop_back();
@@ -70,10 +71,7 @@ RobotCommand RobotDrive::follow_wish(const RobotSense& sense) {
 
 void RobotDrive::restart() {
   item_ = mission_.scenario.robots[driven_];
-  RobotLeg still;
-  still.rate = 0;
-  if (!item_.drive.empty()) still.gait = item_.drive.front().gait;
-  kept_ = {still};
+  kept_ = {kind_of(item_).still(item_)};
   asked_at_ = 0;
   courses_.end();
   session_->start();
@@ -84,8 +82,8 @@ void RobotDrive::follow(const JointTrajectoryCommand& trajectory) {
                  double(session_->steps()) * session_->step_time());
 }
 
-void RobotDrive::advance(const RobotWish& wish, double time) {
-  wish_ = wish;
+void RobotDrive::advance(const TeleopCommand& asked, double time) {
+  asked_ = asked;
   const auto steps = std::int64_t(time / session_->step_time() + 0.5);
   while (session_->steps() < steps) session_->step();
 }
@@ -110,6 +108,7 @@ Scenario RobotDrive::scenario(const Scenario& camera) const {
   kept.trajectory = {};
   kept.trajectory.rate_hz = camera.trajectory.rate_hz;
   kept.trajectory.ride = mission_.scenario.trajectory.ride;
+  kept.robot_run.live_light = true;  // as it was drawn
   kept.robot_run.duration = double(std::max<std::int64_t>(1, session_->steps())) * session_->step_time();
   return kept;
 }

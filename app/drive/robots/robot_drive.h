@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "app/drive/robots/joint_courses.h"
-#include "app/drive/robots/robot_wish.h"
 #include "app/mission/resolved_mission.h"
 #include "app/session/session.h"
+#include "scripting/robots/robot_kind.h"
 
 namespace rubble {
 
@@ -27,7 +27,7 @@ class RobotDrive {
   // one that this robot cannot follow: see JointCourses::begin().
   void follow(const JointTrajectoryCommand& trajectory);
   // So that the world's time is `time` since the start; unit: s
-  void advance(const RobotWish& wish, double time);
+  void advance(const TeleopCommand& asked, double time);
 
   // Of the camera: as trajectory.ride says, else behind the driven robot.
   Pose world_from_rig() const { return session_->world_from_rig(); }
@@ -48,14 +48,14 @@ class RobotDrive {
   Track finish() { return session_->finish().moved.track; }
 
  private:
-  RobotCommand follow_wish(const RobotSense& sense);
+  RobotCommand control(const RobotSense& sense);
 
   ResolvedMission mission_;
   std::vector<std::string> folders_;  // of URDF files
   std::size_t driven_ = 0;
   RobotItem item_;               // the driven one
   std::vector<RobotLeg> kept_;   // all of its commands so far
-  RobotWish wish_;
+  TeleopCommand asked_;
   JointCourses courses_;
   double asked_at_ = 0;  // of the last command; unit: s
   std::unique_ptr<Session> session_;

@@ -26,11 +26,21 @@ double root_mean_square(const std::vector<double>& values) {
   return std::sqrt(sum / double(values.size()));
 }
 
-double calc_ate(const std::vector<PosePair>& pairs, const Similarity& aligned) {
+std::vector<double> calc_distances(const std::vector<PosePair>& pairs, const Similarity& aligned) {
   std::vector<double> errors;
   for (const PosePair& pair : pairs)
     errors.push_back(distance(aligned * pair.estimate.translation, pair.truth.translation));
-  return root_mean_square(errors);
+  return errors;
+}
+
+// The median of an even number is the mean of the two in the middle.
+ErrorSpread calc_spread(std::vector<double> errors) {
+  ErrorSpread spread;
+  for (const double error : errors) spread.mean += error / double(errors.size());
+  std::sort(errors.begin(), errors.end());
+  spread.median = (errors[(errors.size() - 1) / 2] + errors[errors.size() / 2]) / 2;
+  spread.max = errors.back();
+  return spread;
 }
 
 double angle_deg(const Quat& q) {
@@ -93,10 +103,12 @@ TrajectoryError calc_trajectory_error(const std::vector<PosePair>& pairs, int de
                       std::to_string(delta), ""});
   TrajectoryError error;
   error.pairs = int(pairs.size());
-  error.ate_rmse_se3 = calc_ate(pairs, align(pairs, false));
+  const std::vector<double> distances = calc_distances(pairs, align(pairs, false));
+  error.ate_rmse_se3 = root_mean_square(distances);
+  error.ate_se3 = calc_spread(distances);
   const Similarity similarity = align(pairs, true);
   error.sim3_scale = similarity.scale;
-  error.ate_rmse_sim3 = calc_ate(pairs, similarity);
+  error.ate_rmse_sim3 = root_mean_square(calc_distances(pairs, similarity));
   const RelativeError relative = calc_relative_error(pairs, delta);
   error.rpe_trans_rmse = relative.trans_rmse;
   error.rpe_rot_rmse_deg = relative.rot_rmse_deg;

@@ -16,11 +16,17 @@ struct PosePair {
 std::vector<PosePair> associate(const std::vector<StampedPose>& estimate,
                                 const std::vector<StampedPose>& truth, double max_difference);
 
+// Of the distances after a rigid alignment; unit: m.
+struct ErrorSpread {
+  double mean = 0, median = 0, max = 0;
+};
+
 struct TrajectoryError {
   int pairs = 0;  // poses that were compared
   // Absolute trajectory error: root mean square distance of positions after a least-squares
   // alignment of the estimate, rigid (SE3) or with scale (Sim3); unit: m.
   double ate_rmse_se3 = 0, ate_rmse_sim3 = 0;
+  ErrorSpread ate_se3;
   double sim3_scale = 1;  // by which the estimate is multiplied
   // Relative pose error, not aligned, between poses `delta` pairs apart (0 and delta, delta and 2
   // delta, ...): root mean square of the norm of the translation and of the angle.

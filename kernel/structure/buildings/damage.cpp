@@ -109,4 +109,11 @@ Structure build_damaged(const BuildingSpec& b, const Structure& whole) {
   return damaged;
 }
 
+BuildingStructures build_structures(const BuildingSpec& building) {
+  validate(building);
+  BuildingStructures made{build_building(building), {}};
+  made.damaged = build_damaged(building, made.whole);
+  return made;
+}
+
 }  // namespace rubble

@@ -1,14 +1,18 @@
 """Environments for reinforcement learning. With gymnasium installed they are its subclasses, registered as
 rubble/VoidExplore-v0, rubble/SnakeExplore-v0 and rubble/CrawlerNav-v0; without it the same classes work with the
-spaces of spaces.py.
+spaces of spaces.py. TeamNav has several robots, by PettingZoo's parallel interface. Batch steps many environments.
 
     import gymnasium  # the wheel tells it of the environments; a build does when rubble.envs is imported
     env = gymnasium.make("rubble/VoidExplore-v0", max_episode_steps=200, render_mode="rgb_array")
 or
     env = rubble.envs.VoidExplore()
 """
+from .batch import Batch
 from .crawler_nav import CrawlerNav
+from .randomization import (Calibration, Choice, Light, LogUniform, Materials, Normal, Poses, Randomization, Uniform,
+                            Weather)
 from .snake_explore import SnakeExplore
+from .team_nav import TeamNav
 from .void_explore import VoidExplore
 
 try:
@@ -18,4 +22,5 @@ try:
 except ImportError:  # no gymnasium
     pass
 
-__all__ = ["CrawlerNav", "SnakeExplore", "VoidExplore"]
+__all__ = ["Batch", "Calibration", "Choice", "CrawlerNav", "Light", "LogUniform", "Materials", "Normal", "Poses",
+           "Randomization", "SnakeExplore", "TeamNav", "Uniform", "VoidExplore", "Weather"]

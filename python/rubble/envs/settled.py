@@ -1,11 +1,46 @@
-"""Piles of missions that are texts."""
+"""Piles of missions that are texts. Environments of one process have each pile in common, as long as one of them uses it."""
 import tempfile
+import threading
+import weakref
 
 from .. import _core
 
+_lock = threading.Lock()
+_piles = weakref.WeakValueDictionary()
 
-def settle_text(mission, seed, threads):
+
+def settle_text(mission, seed, threads, overrides=()):
     with tempfile.NamedTemporaryFile("w", suffix=".lua") as script:
         script.write(mission)
         script.flush()
-        return _core.settle(script.name, seed, [], threads)
+        return _core.settle(script.name, seed, list(overrides), threads)
+
+
+class SettledPile:
+    """A pile with what is computed from it once."""
+
+    def __init__(self):
+        self._lock, self._made = threading.RLock(), {}
+
+    def once(self, key, make):
+        with self._lock:
+            if key not in self._made:
+                self._made[key] = make()
+            return self._made[key]
+
+    @property
+    def radius(self):
+        """Of a circle about the origin that holds it; m."""
+        def measure():
+            vertices, _ = self.pile.mesh()
+            return float(_core._lengths(vertices[:, :2]).max()) if len(vertices) else 1.0
+        return self.once("radius", measure)
+
+
+def find_pile(mission, seed, threads, overrides=()):
+    """The SettledPile of that mission and seed; its `pile` settles when it is the first."""
+    key = mission, seed, threads, tuple(overrides)
+    with _lock:
+        found = _piles.setdefault(key, SettledPile())
+    found.pile = found.once("pile", lambda: settle_text(mission, seed, threads, overrides))
+    return found

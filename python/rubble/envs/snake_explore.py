@@ -26,6 +26,7 @@ Info:
   pile_seed  seed of the pile, from reset()
   coverage  share of the void that has been seen
   entered  the head has been within 0.3 m of the entrance
+  randomization  values of the episode by key, from reset(), where there is a `randomization`
 
 Arguments:
   mission  mission of the pile, as Lua text
@@ -40,15 +41,17 @@ Arguments:
   voxel  edge of the cells of the void; m
   metres  gives `depth` in metres
   threads  number of threads; results do not depend on it
+  randomization  a Randomization: what each episode draws besides
 """
 import math
 
 import numpy as np
 
 from .. import _core, geometry
-from ..robots import RobotWorld
 from .pictures import depth_space
+from .randomization import Drawn, mistake
 from .spaces import Box, Dict, Env
+from .robot_worlds import RobotWorlds
 from .void_explore import MISSION
 from .void_world import VoidWorld, VoidWorlds, checked_action, is_over
 
@@ -60,15 +63,18 @@ _MOST = 1000.0  # of a component of the observation that has no limit of its own
 
 class SnakeExplore(Env):
     metadata = {"render_modes": ["rgb_array"], "render_fps": 10}
+    randomized = ("calibration.*", "materials.friction", "poses.away")
 
     def __init__(self, mission=MISSION, pile_seeds=range(1, 6), radius=0.12, size=36, fov_deg=90.0, max_range=4.0,
                  period=0.1, max_steps=600, enough=0.95, voxel=0.1, metres=False, threads=1,
-                 render_mode=None):
+                 randomization=None, render_mode=None):
         self.render_mode, self.metadata = render_mode, {**self.metadata, "render_fps": 1 / period}
         self._radius, self._period, self._max_steps, self._enough = radius, period, max_steps, enough
-        self._threads, self._robot = threads, None
-        self._worlds = VoidWorlds(pile_seeds, lambda seed: VoidWorld(mission, seed, radius, voxel, size, fov_deg,
-                                                                     max_range, False, threads, metres))
+        self._robot = None
+        self._drawn = Drawn(randomization, self.randomized, "SnakeExplore")
+        self._worlds = VoidWorlds(pile_seeds, lambda seed: VoidWorld(mission, seed, radius, voxel, size, fov_deg, max_range,
+                                                                     False, threads, metres, self._drawn))
+        self._robots = RobotWorlds("snake", threads)
         self.action_space = Box(-1.0, 1.0, (_JOINTS,), np.float32, unit="of 1.2 rad, by joint from head to tail")
         head = [(way, "m") for way in ("forwards", "left", "up")] + [
             (name, "") for name in ("X axis upwards", "Z axis upwards", "cosine of heading", "sine of heading")]
@@ -81,31 +87,41 @@ class SnakeExplore(Env):
             "touch": Box(0.0, 100 * _MOST, (_JOINTS + 1,), np.float32, unit="N")})
 
     def _find_start(self):
-        """On the ground before the entrance, as near as the snake has room, looking at it."""
-        world = self._world
+        """On the ground before the entrance, as near as the snake has room (or as much farther as is drawn), looking at it."""
+        world, away = self._world, self._drawn.get("poses.away", 0.0)
         for turn in (0.0, 0.4, -0.4, 0.8, -0.8):
             yaw = world.yaw + turn
-            ahead = np.append(_core._directions([yaw])[0], 0.0)
-            for back in (0.2 + 0.2 * k for k in range(29)):
-                head = world.entrance * [1, 1, 0] - back * ahead + [0, 0, _HEIGHT]
-                body = head - np.outer(np.linspace(-0.05, _LENGTH, 21), ahead)
-                # Its own height above the ground is the clearance of an empty place.
-                if np.all(world.pile.clearance(body, 1.0) >= _HEIGHT - 1e-6):
-                    return geometry.pose(head, (0, 0, yaw))
-        error = _core.InputError("mission: no room for a snake before the entrance of a void: expected 1 m of flat ground "
-                                 "within 6 m of it")
-        error.key = "mission"
-        raise error
+            back = self._find_room(yaw, 0.2, 29)
+            if back is not None and away:
+                back = self._find_room(yaw, back + away, 10)
+            if back is not None:
+                return geometry.pose(self._head_at(yaw, back), (0, 0, yaw))
+        raise mistake("mission", "no room for a snake before the entrance of a void: expected 1 m of flat ground within 6 m "
+                                 "of it")
+
+    def _head_at(self, yaw, back):
+        return self._world.entrance * [1, 1, 0] - back * np.append(_core._directions([yaw])[0], 0.0) + [0, 0, _HEIGHT]
+
+    def _find_room(self, yaw, least, tries):
+        """The first of `tries` distances from the entrance at which the snake has room; None: none of them."""
+        ahead = np.append(_core._directions([yaw])[0], 0.0)
+        for back in (least + 0.2 * k for k in range(tries)):
+            body = self._head_at(yaw, back) - np.outer(np.linspace(-0.05, _LENGTH, 21), ahead)
+            # Its own height above the ground is the clearance of an empty place.
+            if np.all(self._world.pile.clearance(body, 1.0) >= _HEIGHT - 1e-6):
+                return back
+        return None
 
     def reset(self, *, seed=None, options=None):
         super().reset(seed=seed)
         self._world, pile_seed = self._worlds.choose(self.np_random, self._radius)
-        self._world.view.forget()
+        self._drawn.draw(self.np_random)
+        self._world.begin()
         self._start = self._find_start()
-        self._robot = RobotWorld(self._world.pile, "snake", self._start, fixed_debris=True, threads=self._threads)
+        self._robot = self._robots.place(self._world.pile, self._start, self._drawn.get("materials.friction"))
         self._state, self._steps, self._entered = self._robot.state(), 0, False
         self._distance, self._places = self._to_entrance(), [self._state["links"][0][:3]]
-        return self._observe(), {"pile_seed": pile_seed, "coverage": 0.0, "entered": False}
+        return self._observe(), {"pile_seed": pile_seed, "coverage": 0.0, "entered": False, **self._drawn.info()}
 
     def step(self, action):
         if self._robot is None:

@@ -1,5 +1,5 @@
-"""Env, Box and Dict: gymnasium's where it is installed, else as much of them as an environment needs. Boxes also know
-units and names, which they print."""
+"""Env, VectorEnv, ParallelEnv, Box and Dict: those of gymnasium and pettingzoo where these are installed, else as much of
+them as an environment needs. Boxes also know units and names, which they print."""
 import numpy as np
 
 from .. import _core
@@ -9,6 +9,8 @@ try:
     from gymnasium.spaces import Box as _Box
     from gymnasium.spaces import Dict
     from gymnasium.utils import seeding
+    from gymnasium.vector import AutoresetMode, VectorEnv
+    from gymnasium.vector.utils import batch_space
 
     def make_random(seed):
         return seeding.np_random(seed)
@@ -53,6 +55,26 @@ except ImportError:
         def __exit__(self, *_):
             self.close()
 
+    class AutoresetMode:
+        NEXT_STEP = "NextStep"
+
+    class VectorEnv:
+        closed = False
+
+        def close(self, **more):
+            if not self.closed:
+                self.close_extras(**more)
+                self.closed = True
+
+        @property
+        def unwrapped(self):
+            return self
+
+    def batch_space(space, count):
+        if isinstance(space, Dict):
+            return Dict({name: batch_space(one, count) for name, one in space.spaces.items()})
+        return Box(space.low, space.high, (count, *space.shape), space.dtype)
+
     class _Box:
         """An array within limits."""
 
@@ -87,6 +109,23 @@ except ImportError:
 
         def contains(self, value):
             return value.keys() == self.spaces.keys() and all(s.contains(value[k]) for k, s in self.spaces.items())
+
+try:
+    from pettingzoo import ParallelEnv
+except ImportError:
+
+    class ParallelEnv:
+        @property
+        def num_agents(self):
+            return len(self.agents)
+
+        @property
+        def max_num_agents(self):
+            return len(self.possible_agents)
+
+        @property
+        def unwrapped(self):
+            return self
 
 
 class Box(_Box):

@@ -27,6 +27,7 @@ Info:
   pile_seed  seed of the pile, from reset()
   coverage  share of the void that has been seen
   stops  number of steps in which the ball was stopped
+  randomization  values of the episode by key, from reset(), where there is a `randomization`
 
 Arguments:
   mission  mission of the pile, as Lua text
@@ -44,11 +45,13 @@ Arguments:
   metres  gives `depth` in metres
   colour  adds `rgb`; the light of each pile is baked at its first use
   threads  number of threads; results do not depend on it
+  randomization  a Randomization: what each episode draws besides
 """
 import numpy as np
 
 from .. import _core, geometry
 from .pictures import depth_space
+from .randomization import Drawn
 from .spaces import Box, Dict, Env
 from .void_world import VoidWorld, VoidWorlds, checked_action, is_over
 
@@ -61,15 +64,18 @@ return rubble.mission {
 
 class VoidExplore(Env):
     metadata = {"render_modes": ["rgb_array"], "render_fps": 5}
+    randomized = ("calibration.*", "poses.yaw_deg", "light.*", "weather.*")  # the last two: with colour
 
     def __init__(self, mission=MISSION, pile_seeds=range(1, 6), radius=0.15, size=64, fov_deg=90.0, max_range=5.0,
                  speed=0.5, turn_rate=1.0, period=0.2, max_steps=500, enough=0.95, voxel=0.1, metres=False, colour=False,
-                 threads=1, render_mode=None):
+                 threads=1, randomization=None, render_mode=None):
         self.render_mode, self.metadata = render_mode, {**self.metadata, "render_fps": 1 / period}
         self._radius, self._speed, self._turn_rate, self._period = radius, speed, turn_rate, period
         self._max_steps, self._enough = max_steps, enough
-        self._worlds = VoidWorlds(pile_seeds, lambda seed: VoidWorld(mission, seed, radius, voxel, size, fov_deg,
-                                                                     max_range, colour, threads, metres))
+        self._drawn = Drawn(randomization, self.randomized if colour else self.randomized[:2],
+                            "VoidExplore" if colour else "VoidExplore without colour")
+        self._worlds = VoidWorlds(pile_seeds, lambda seed: VoidWorld(mission, seed, radius, voxel, size, fov_deg, max_range,
+                                                                     colour, threads, metres, self._drawn))
         self._world = None
         self.action_space = Box(-1.0, 1.0, (4,), np.float32, parts=[
             (way, f"of {speed:g} m/s") for way in ("forwards", "left", "up")] + [("turning to the left", f"of {turn_rate:g} rad/s")])
@@ -84,12 +90,14 @@ class VoidExplore(Env):
     def reset(self, *, seed=None, options=None):
         super().reset(seed=seed)
         self._world, pile_seed = self._worlds.choose(self.np_random, self._radius)
-        self._world.view.forget()
+        self._drawn.draw(self.np_random)
+        self._world.begin()
         self._position, self._yaw = self._world.entrance.copy(), 0.0
+        self._start_yaw = self._world.yaw + np.radians(self._drawn.get("poses.yaw_deg", 0.0))
         self._steps = self._stopped = 0
         self._places = [self._position.copy()]
         observation = self._observe()
-        return observation, self._describe(pile_seed=pile_seed)
+        return observation, self._describe(pile_seed=pile_seed, **self._drawn.info())
 
     def step(self, action):
         if self._world is None:
@@ -97,7 +105,7 @@ class VoidExplore(Env):
         action = checked_action(action, 4)
         view = self._world.view
         self._yaw += float(action[3]) * self._turn_rate * self._period
-        way = self._turned(action[:3] * (self._speed * self._period), self._world.yaw + self._yaw)
+        way = self._turned(action[:3] * (self._speed * self._period), self._start_yaw + self._yaw)
         self._position, free = view.move(self._position, way)
         self._places.append(self._position.copy())
         self._steps += 1
@@ -114,11 +122,11 @@ class VoidExplore(Env):
         return np.array([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1], vector[2]])
 
     def _body(self):
-        return geometry.pose(self._position, (0, 0, self._world.yaw + self._yaw))
+        return geometry.pose(self._position, (0, 0, self._start_yaw + self._yaw))
 
     def _observe(self):
         depth, clearance, rgb = self._world.look(self._body())
-        moved = self._turned(self._position - self._world.entrance, -self._world.yaw)
+        moved = self._turned(self._position - self._world.entrance, -self._start_yaw)
         observation = {"clearance": np.array([clearance], np.float32), "depth": depth,
                        "pose": np.append(moved, self._yaw).astype(np.float32)}
         if rgb is not None:

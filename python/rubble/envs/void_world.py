@@ -4,36 +4,63 @@ import numpy as np
 from .. import _core
 from ..sensors import Renderer
 from .pictures import Section, to_levels, upscale
-from .settled import settle_text
+from .randomization import mistake
+from .settled import find_pile
 
-_SIZE = 256  # of the pictures of render(), in pixels
+_SIZE = 256     # of the pictures of render(), in pixels
+_RENDERERS = 4  # that are kept of a pile, each with its own light
 
 
 class VoidWorld:
     """The pile of a seed with its largest void that a ball of `radius` can enter (void: None where there is none),
     and what is seen of it."""
 
-    def __init__(self, mission, seed, radius, voxel, size, fov_deg, max_range, colour, threads, metres):
-        self.pile = settle_text(mission, seed, threads)
-        voids = [v for v in self.pile.voids(radius, voxel) if v["entrances"]]
+    def __init__(self, mission, seed, radius, voxel, size, fov_deg, max_range, colour, threads, metres, drawn):
+        """drawn: the Drawn of the environment."""
+        settled = find_pile(mission, seed, threads)
+        self.pile = settled.pile
+        voids = settled.once(("voids", radius, voxel),
+                             lambda: [v for v in self.pile.voids(radius, voxel) if v["entrances"]])
         self.void = voids[0] if voids else None
         if not self.void:
             return
         entrance = self.void["entrances"][0]
         self.entrance, inward = entrance["position"], entrance["inward"]
         self.yaw = _core._atan2(inward[1], inward[0])
-        self.view = _core._Explorer(self.pile._shared, self.void["cells"], voxel, radius, size, fov_deg, max_range,
-                                    threads)
-        self.renderer = Renderer(self.pile, threads) if colour else None
+        explored = settled.once("explored", lambda: _core._ExploredPile(self.pile._shared))
+        self.view = _core._Explorer(explored, self.void["cells"], voxel, radius, size, fov_deg, max_range, threads)
         self._size, self._fov_deg, self._max_range, self._metres = size, fov_deg, max_range, metres
+        self._colour, self._renderers, self._threads, self._drawn = colour, {}, threads, drawn
+        self._settled = settled  # as long as this is there, others find it
+
+    def begin(self):
+        """For a new episode: nothing is seen, and all is as drawn."""
+        self.view.forget()
+        self._camera = [self._drawn.get(f"calibration.{key}", default) for key, default in
+                        (("fov_deg", self._fov_deg), ("shift_x", 0.0), ("shift_y", 0.0))]
+        self.view.set_camera(*self._camera)
+        self._renderer = self._find_renderer() if self._colour else None
+
+    def _find_renderer(self):
+        """That of the light and weather of the episode."""
+        key = tuple(self._drawn.overrides())
+        renderer = self._renderers.pop(key, None)
+        if renderer is None:
+            if len(self._renderers) >= _RENDERERS:
+                self._renderers.pop(next(iter(self._renderers)))
+            renderer = Renderer(self.pile.vary(key) if key else self.pile, self._threads)
+        self._renderers[key] = renderer  # the last one used is the last one dropped
+        return renderer
 
     def look(self, pose):
         """(depth, clearance, colour or None) of a body there; what it shows of the void counts as seen. Depth as
         pictures.depth_space() says."""
         depth, clearance = self.view.look(pose)
+        depth = self._drawn.measure(depth, self._max_range)
         if not self._metres:
             depth = to_levels(depth, self._max_range)
-        rgb = self.renderer.render(pose, self._size, self._size, self._fov_deg)["rgb"] if self.renderer else None
+        fov_deg, *shift = self._camera
+        rgb = self._renderer.render(pose, self._size, self._size, fov_deg, shift=shift)["rgb"] if self._renderer else None
         return depth, clearance, rgb
 
     def draw(self, pose, picture, places):
@@ -58,10 +85,8 @@ class VoidWorlds:
                 self._made[seed] = self._make(seed)
             if self._made[seed].void:
                 return self._made[seed], seed
-        error = _core.InputError(f"radius: no pile of pile_seeds has a void that a ball of {radius} m can enter: "
-                                 "expected a smaller radius, a smaller voxel or other seeds")
-        error.key = "radius"
-        raise error
+        raise mistake("radius", f"no pile of pile_seeds has a void that a ball of {radius} m can enter: "
+                                "expected a smaller radius, a smaller voxel or other seeds")
 
 
 def checked_action(action, count):
@@ -69,9 +94,7 @@ def checked_action(action, count):
     than rounding: gymnasium.wrappers.ClipAction clips what a policy draws."""
     action = np.asarray(action, float)
     if action.shape != (count,) or not np.all(np.isfinite(action)) or not np.all(np.abs(action) <= 1 + 1e-6):
-        error = _core.InputError(f"action: expected {count} numbers from -1 to 1: found {action!r}")
-        error.key = "action"
-        raise error
+        raise mistake("action", f"expected {count} numbers from -1 to 1: found {action!r}")
     return np.clip(action, -1, 1)
 
 

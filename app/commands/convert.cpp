@@ -1,0 +1,175 @@
+// `rubble convert`: a recorded dataset in further formats, written by the recorders of `rubble run`.
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "app/command_line/command.h"
+#include "app/command_line/common_options.h"
+#include "app/control/robot_control.h"
+#include "app/formats/class_labels.h"
+#include "app/formats/recording_formats.h"
+#include "app/mission/finished_run.h"
+#include "app/mission/resolved_mission.h"
+#include "app/pipeline/recorders.h"
+#include "app/robots/robot_log.h"
+#include "app/support/print.h"
+#include "app/support/run_context.h"
+#include "app/support/stop.h"
+#include "io/base/atomic_file.h"
+#include "io/base/remove_files.h"
+#include "io/playback/dataset_player.h"
+#include "io/recording/recording_queue.h"
+
+namespace rubble {
+namespace {
+
+// Into which formats a dataset goes, and where to.
+struct ConvertRequest {
+  std::vector<std::string> formats;  // --to, of recording_formats()
+  std::string out;                   // --out; empty: `convert` in the folder of the run
+  bool force = false;                // --force
+};
+
+// The scenario of the dataset, with these outputs. Throws InputError where a mission with them would be refused.
+Scenario scenario_for(const FinishedRun& saved, const std::vector<std::string>& names) {
+  Scenario scenario = stated_scenario(saved.manifest.provenance);
+  for (const RecordingFormat& format : recording_formats()) scenario.outputs.*format.wanted = false;
+  for (const std::string& name : names) scenario.outputs.*find_recording_format(name).wanted = true;
+  scenario.validate();
+  return scenario;
+}
+
+// What is to be read back for all formats together.
+PlayedSamples samples_for(const std::vector<std::string>& names, const Scenario& scenario, const FinishedRun& saved) {
+  PlayedSamples wanted;
+  for (const std::string& name : names) {
+    const HeldSamples& holds = find_recording_format(name).holds;
+    wanted.imus = wanted.imus || holds.imus;
+    wanted.biases = wanted.biases || holds.biases;
+    wanted.scans = wanted.scans || holds.scans;
+    wanted.readings = wanted.readings || holds.readings;
+    if (holds.robots && !scenario.robots.empty())
+      throw InputError({saved.folder, 0, "--to " + name, "readings of robots cannot be read back from recordings",
+                        "a format without robots", name, "`rubble remake` with outputs." + name + " = true makes it"});
+  }
+  return wanted;
+}
+
+Recording recording_of(const Scenario& scenario, const FinishedRun& saved, const AssetLibrary& assets, const PileState& pile,
+                       RunContext& context) {
+  if (scenario.robots.empty()) return describe_recording(scenario, assets, pile);
+  const std::vector<MissionRobot> robots = make_robots({saved.manifest.provenance, scenario, scenario.seed, assets}, context);
+  Recording recording = describe_recording(scenario, assets, pile, describe_robots(scenario, robots));
+  const std::uint16_t label = ClassLabels(scenario, assets.types).of_robots();
+  for (const MissionRobot& robot : robots) add_links(robot.model, label, recording.legend);
+  return recording;
+}
+
+// Frames of each camera, by the hashes of the manifest.
+std::vector<int> count_recorded(const FinishedRun& saved, const Recording& recording, const Scenario& scenario) {
+  const FrameHashes& hashes = saved.manifest.frames;
+  std::vector<int> frames;
+  for (const CameraRecord& camera : recording.cameras) {
+    const std::string channel = !scenario.names_cameras() ? "rgb" : camera.name + "/rgb";
+    const auto column = std::find(hashes.channels.begin(), hashes.channels.end(), channel) - hashes.channels.begin();
+    frames.push_back(int(std::count_if(hashes.frames.begin(), hashes.frames.end(), [&](const auto& row) {
+      return std::size_t(column) < row.size() && row[std::size_t(column)] != 0;
+    })));
+  }
+  return frames;
+}
+
+void check_count(const FinishedRun& saved, int expected, int found) {
+  if (found == expected) return;
+  throw InputError({saved.folder, 0, "", "the recording is not whole", std::to_string(expected) + " frames, as the manifest states",
+                    std::to_string(found), "`rubble info " + saved.folder + "` finds damaged files"});
+}
+
+// The dataset is read while the new files are written: its folder, and what it is in, cannot be theirs.
+void check_apart(const std::string& dataset, const std::string& out) {
+  namespace fs = std::filesystem;
+  std::error_code failed;
+  const fs::path source = fs::canonical(dataset, failed), target = fs::weakly_canonical(out, failed);
+  for (fs::path above = source; !above.empty(); above = above.parent_path()) {
+    if (above == target)
+      throw InputError({out, 0, "--out", "would replace the dataset that is converted", "a folder beside or below " + dataset, "",
+                        "without --out the files are in " + dataset + "/convert"});
+    if (above == above.parent_path()) break;
+  }
+}
+
+// What an earlier conversion left is ours to replace.
+void prepare_conversion(const std::string& out, bool force) {
+  std::vector<std::string> files;
+  for (const RecordingFormat& format : recording_formats()) {
+    if (!format.is_folder) files.push_back(format.leaves);
+    if (!format.beside.empty()) files.push_back(format.beside);
+    if (!force || !format.is_folder) continue;
+    const std::vector<std::string> inside = list_plain_files(out, format.leaves);
+    files.insert(files.end(), inside.begin(), inside.end());
+  }
+  if (force) {
+    const std::vector<std::string> inside = list_plain_files(out, kCamerasFolder);
+    files.insert(files.end(), inside.begin(), inside.end());
+  }
+  prepare_output_folder(out, force, files);
+  remove_empty_parents(out, files);
+}
+
+ExitCode convert(const FolderRequest& request, const ConvertRequest& to) {
+  stop_on_signals();
+  const FinishedRun saved = open_finished_run(request.folder);
+  const Scenario scenario = scenario_for(saved, to.formats);
+  RunContext context(request.options);
+  const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
+  const PileState pile = load_pile_of(saved, assets);
+  const Recording recording = recording_of(scenario, saved, assets, pile, context);
+  std::vector<Intrinsics> intrinsics;
+  for (const MountedCamera& camera : scenario.cameras) intrinsics.push_back(camera.camera.intrinsics());
+  DatasetPlayer player({saved.folder, recording, intrinsics}, samples_for(to.formats, scenario, saved));
+  const std::string out = output_folder_of(to.out, request.folder, "convert");
+  check_apart(request.folder, out);
+  prepare_conversion(out, to.force);
+  const std::vector<int> frames = count_recorded(saved, recording, scenario);
+  const std::string title = recording_title(saved.manifest.provenance.script.path, scenario.seed, pile);
+  RecorderSet set = make_recorders({scenario, recording, frames, title}, out);
+  RecordingQueue queue(std::move(set.recorders));
+  context.progress.start("convert");
+  int expected = 0, found = 0;
+  for (const int count : frames) expected += count;
+  player.play([&](Sample sample) {
+    if (std::holds_alternative<Frame>(sample)) {
+      ++found;
+      context.progress.update(double(found) / std::max(expected, 1), "frame " + std::to_string(found) + " of " + std::to_string(expected));
+    }
+    throw_if_stopped("");
+    queue.push(std::move(sample));
+  });
+  check_count(saved, expected, found);
+  queue.finish();
+  context.progress.finish(std::to_string(found) + " frames");
+  for (const std::string& note : player.notes()) print_err("%s\n", note.c_str());
+  for (const std::string& name : set.names) print_out("%s/%s\n", out.c_str(), name.c_str());
+  return ExitCode::done;
+}
+
+Action declare_convert(CommandLine& line) {
+  const auto of = std::make_shared<FolderRequest>();
+  const auto request = std::make_shared<ConvertRequest>();
+  std::string names;
+  for (const RecordingFormat& format : recording_formats()) names += (names.empty() ? "" : ", ") + format.name;
+  add_folder_options(line, *of);
+  add_quiet_option(line, of->options.quiet);
+  line.add("--to", request->formats, names).required().metavar("FORMAT").separated_by(',');
+  line.add("--out", request->out, "Output folder").shows_default_text("FOLDER/convert").metavar("DIR");
+  line.add_flag("--force", request->force, "Replace the files of an earlier conversion");
+  return [of, request] { return convert(*of, *request); };
+}
+
+}  // namespace
+
+Command convert_command() {
+  return {"", "convert", "Convert a recorded dataset to further formats", declare_convert};
+}
+
+}  // namespace rubble

@@ -1,0 +1,49 @@
+#include "app/sensors/camera_renderers.h"
+
+#include <algorithm>
+
+#include "kernel/base/system/disk_cache.h"
+
+namespace rubble {
+namespace {
+
+// Whether one renderer draws both: samples and the filter are of path tracing alone.
+bool draws_alike(const ColourSpec& a, const ColourSpec& b) {
+  if (a.quality != b.quality) return false;
+  return a.quality != RenderQuality::reference || (a.samples == b.samples && a.denoise == b.denoise);
+}
+
+}  // namespace
+
+std::unique_ptr<Renderer> prepare_renderer(const Scene& scene, const ColourSpec& colour, GlContext& gl,
+                                           const CameraRendering& options) {
+  RenderOptions of;
+  of.threads = options.threads;
+  of.colour = colour;
+  of.image_progress = options.on_image;
+  of.cache_folder = DiskCache::usual_folder();
+  return std::make_unique<Renderer>(gl, scene, of, options.on_light);
+}
+
+CameraRenderers::CameraRenderers(const Scene& scene, const std::vector<MountedCamera>& cameras,
+                                 const std::vector<std::size_t>& drawn, GlContext& gl, const CameraRendering& options)
+    : of_camera_(cameras.size(), cameras.size()) {
+  std::vector<ColourSpec> colours;
+  for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
+    if (!drawn.empty() && std::find(drawn.begin(), drawn.end(), camera) == drawn.end()) continue;
+    const ColourSpec& colour = cameras[camera].camera.colour;
+    const auto same = std::find_if(colours.begin(), colours.end(), [&](const ColourSpec& c) { return draws_alike(c, colour); });
+    of_camera_[camera] = std::size_t(same - colours.begin());
+    if (same == colours.end()) colours.push_back(colour);
+  }
+  for (const ColourSpec& colour : colours) {
+    CameraRendering one = options;
+    if (options.on_light)
+      one.on_light = [&, done = double(renderers_.size())](double share) {
+        options.on_light((done + share) / double(colours.size()));
+      };
+    renderers_.push_back(prepare_renderer(scene, colour, gl, one));
+  }
+}
+
+}  // namespace rubble

@@ -1,0 +1,43 @@
+// The renderers that draw the cameras of a mission: one for each quality of colours among them.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "render/gl/gl_context.h"
+#include "render/renderer.h"
+#include "render/scene/scene.h"
+#include "scripting/scenario/scenario.h"
+
+namespace rubble {
+
+struct CameraRendering {
+  int threads = 1;
+  Renderer::Progress on_light;           // progress of the light of all, from 0 to 1
+  std::function<void(double)> on_image;  // of a path-traced image; may throw to stop
+};
+
+// The scene, lit for these colours, on the device of `gl`.
+std::unique_ptr<Renderer> prepare_renderer(const Scene& scene, const ColourSpec& colour, GlContext& gl,
+                                           const CameraRendering& options);
+
+class CameraRenderers {
+ public:
+  // drawn: numbers of the cameras that will be drawn; empty: all. The context must outlive this. Throws RunError as Renderer
+  // does.
+  CameraRenderers(const Scene& scene, const std::vector<MountedCamera>& cameras, const std::vector<std::size_t>& drawn,
+                  GlContext& gl, const CameraRendering& options);
+
+  // Of one of the cameras that are drawn.
+  Renderer& of(std::size_t camera) { return *renderers_[of_camera_.at(camera)]; }
+  // Of the scene, the same for all.
+  const Medium& medium() const { return renderers_.front()->medium(); }
+
+ private:
+  std::vector<std::unique_ptr<Renderer>> renderers_;
+  std::vector<std::size_t> of_camera_;  // numbers of renderers
+};
+
+}  // namespace rubble

@@ -1,0 +1,103 @@
+// What users may write in two ways is the same list afterwards; names, keys and the JSON of a mission follow the way.
+#include "scripting/scenario/mission_form.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/scripting/test_support.h"
+
+namespace rubble {
+namespace mission_form_test {
+
+Scenario load(const std::string& keys) { return load_text("return rubble.mission { " + keys + " }").scenario; }
+
+void expect_same_json(const Scenario& s) {
+  const std::string json = scenario_to_json(s);
+  EXPECT_EQ(scenario_to_json(scenario_from_json(json, "s.json")), json);
+}
+
+TEST(MissionForm, OneCameraIsAListWithoutNames) {
+  const Scenario s = load("camera = { width = 64 }, depth_sensor = { type = \"ideal\" }, event_camera = { on = true }");
+  ASSERT_EQ(s.cameras.size(), 1u);
+  const MountedCamera& camera = s.cameras[0];
+  EXPECT_EQ(camera.camera.width, 64);
+  EXPECT_EQ(camera.depth_sensor.type, DepthSensorType::ideal);
+  EXPECT_TRUE(camera.event_camera.on);
+  EXPECT_FALSE(s.names_cameras());
+  EXPECT_EQ(camera.key(), "camera");
+  EXPECT_EQ(camera.topic(), "/camera");
+  EXPECT_EQ(camera.frame_id(), "camera_optical_frame");
+  EXPECT_EQ(camera.folder_in("out"), "out");
+  expect_same_json(s);
+}
+
+TEST(MissionForm, CamerasOfATableHaveTheirNames) {
+  const Scenario s = load("cameras = { camera = { width = 64, topic = \"/eye\" } }");
+  ASSERT_EQ(s.cameras.size(), 1u);
+  const MountedCamera& camera = s.cameras[0];
+  EXPECT_EQ(camera.camera.width, 64);
+  EXPECT_TRUE(s.names_cameras()) << "though it has the name that the only one has";
+  EXPECT_EQ(camera.key(), "cameras.camera");
+  EXPECT_EQ(camera.topic(), "/eye");
+  EXPECT_EQ(camera.folder_in("out"), "out/cameras/camera");
+  expect_same_json(s);
+  EXPECT_NE(scenario_to_json(s), scenario_to_json(load("camera = { width = 64, topic = \"/eye\" }")));
+}
+
+TEST(MissionForm, UnitsAreAListToo) {
+  EXPECT_TRUE(load("").imus.empty());
+  EXPECT_TRUE(load("imu = { on = false, rate_hz = 50 }").imus.empty());
+  const Scenario one = load("imu = { on = true, rate_hz = 50 }");
+  ASSERT_EQ(one.imus.size(), 1u);
+  EXPECT_EQ(one.imus[0].model.rate_hz, 50);
+  EXPECT_EQ(one.imus[0].key(), "imu");
+  EXPECT_EQ(one.imus[0].ros_topic(), "/imu");
+  const Scenario several = load("imus = { head = { rate_hz = 50 }, tail = {} }");
+  ASSERT_EQ(several.imus.size(), 2u);
+  EXPECT_EQ(several.imus[0].key(), "imus.head");
+  EXPECT_EQ(several.imus[1].ros_topic(), "/tail");
+  expect_same_json(one);
+  expect_same_json(several);
+}
+
+TEST(MissionForm, TheMainLightComesFirst) {
+  const Scenario s = load("light = { type = \"sun\", elevation_deg = 12 }, lights = { { type = \"point\", intensity = 3 } }");
+  ASSERT_EQ(s.lights.size(), 2u);
+  EXPECT_EQ(s.lights[0].spec.elevation_deg, 12);
+  EXPECT_EQ(s.lights[1].spec.intensity, 3);
+  EXPECT_EQ(resolve_light(s).type, LightType::sun);
+  expect_same_json(s);
+  EXPECT_NE(mission_error("return rubble.mission { lights = { {}, {}, {}, {} } }").find("at most 3 besides the main one, found 4"),
+            std::string::npos);
+}
+
+TEST(MissionForm, BothFormsOfTheSameAreAMistake) {
+  const auto error = [](const std::string& keys) { return mission_error("return rubble.mission { " + keys + " }"); };
+  EXPECT_NE(error("camera = { width = 64 }, cameras = { a = {} }").find("camera.width: contradicts cameras"), std::string::npos);
+  EXPECT_NE(error("depth_sensor = { type = \"ideal\" }, cameras = { a = {} }").find("depth_sensor.type: contradicts cameras"),
+            std::string::npos);
+  EXPECT_NE(error("imu = true, imus = { a = {} }").find("imu.on: contradicts imus"), std::string::npos);
+}
+
+// The rig moves smoothly where a unit on it measures, in either form; a unit on a robot asks nothing of the rig.
+TEST(MissionForm, AUnitOnTheRigSmoothsItsPath) {
+  const std::string path = ", trajectory = { waypoints = { { t = 0, position = { -3, 0, 1 } }, { t = 1, position = { 3, 0, 1 } } } }";
+  const std::string robot = ", robots = { { name = \"r\" } }";
+  EXPECT_EQ(flown_trajectory(load("imu = true" + path)).smoothing, kUsualSmoothing);
+  EXPECT_EQ(flown_trajectory(load("imus = { a = {} }" + path)).smoothing, kUsualSmoothing);
+  EXPECT_EQ(flown_trajectory(load("imus = { a = { ride = { robot = \"r\" } } }" + robot + path)).smoothing, std::nullopt);
+  EXPECT_EQ(flown_trajectory(load("imu = { on = true, ride = { robot = \"r\" } }" + robot + path)).smoothing, std::nullopt);
+}
+
+TEST(MissionForm, WarnsOfAnyCameraInRadians) {
+  EXPECT_EQ(find_suspicious(load_text("return rubble.mission { camera = { fov_deg = 90 } }")).size(), 0u);
+  const std::vector<std::string> of_one = find_suspicious(load_text("return rubble.mission { camera = { fov_deg = 1.5 } }"));
+  ASSERT_EQ(of_one.size(), 1u);
+  EXPECT_NE(of_one[0].find("camera.fov_deg"), std::string::npos);
+  const std::vector<std::string> of_two =
+      find_suspicious(load_text("return rubble.mission { cameras = { a = {}, b = { fov_deg = 1.5 } } }"));
+  ASSERT_EQ(of_two.size(), 1u);
+  EXPECT_NE(of_two[0].find("cameras.b.fov_deg"), std::string::npos) << of_two[0];
+}
+
+}  // namespace mission_form_test
+}  // namespace rubble

@@ -96,6 +96,18 @@ TEST(Fines, AreNoneByDefault) {
   EXPECT_TRUE(Fines{}.heaps().empty());
 }
 
+// One list for pictures, queries, exports and recordings; who forgets to make it is told.
+TEST(Fines, HaveTheirHeapsMadeOnce) {
+  const Fines fines = Corner().strew(loose(50)), copy = fines;
+  ASSERT_FALSE(fines.heaps().empty());
+  EXPECT_EQ(&copy.heaps(), &fines.heaps()) << "a copy shares them";
+  Fines without = fines;
+  without.gathered = nullptr;
+  EXPECT_THROW(without.heaps(), std::logic_error);
+  heap_fines(without);
+  EXPECT_EQ(without.heaps().size(), fines.heaps().size());
+}
+
 TEST(Fines, AreTheSameForAnyNumberOfThreadsAndOthersForAnotherSeed) {
   const Corner corner;
   FinesSpec spec;

@@ -10,6 +10,7 @@
 #include "bench/program.h"
 #include "bench/report.h"
 #include "bench/settle_run.h"
+#include "bench/sweep_run.h"
 #include "bench/workload_file.h"
 
 namespace rubble {
@@ -24,6 +25,7 @@ struct Request {
   std::uint64_t seed = 0;
   bool csv = false;
   bool hold = false;
+  bool sweeps = false;
 };
 
 // A path as it is; a bare name like "w1" stands for the file that the build wrote.
@@ -66,6 +68,13 @@ ExitCode hold(const Pile& pile, const SettleJob& job, const Request& request) {
   return settled ? ExitCode::done : ExitCode::did_not_settle;
 }
 
+// What more threads than there are would gain.
+ExitCode plan_sweeps(const Pile& pile, const SettleJob& job) {
+  const SweepRun run = run_sweeps(pile, job, {1, 2, 4, 8, 16});
+  std::fputs(sweep_csv(run).c_str(), stdout);
+  return run.settled ? ExitCode::done : ExitCode::did_not_settle;
+}
+
 ExitCode bench(const Request& request) {
   const std::string path = find_work(request.work);
   Pile pile = load_workload(path);
@@ -76,6 +85,7 @@ ExitCode bench(const Request& request) {
   job.options.schedule = request.schedule;
   job.options.threads = request.threads;
   if (request.hold) return hold(pile, job, request);
+  if (request.sweeps) return plan_sweeps(pile, job);
   bool settled = true;
   std::uint64_t hash = 0;
   for (int i = 0; i < request.repeat; ++i) {
@@ -113,6 +123,9 @@ ExitCode run(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--hold", request.hold,
                "Instead measure steps of the settled pile with sleep off, on one thread and two");
+  app.add_flag("--sweeps", request.sweeps,
+               "Instead plan the sweeps of the settled pile with sleep off, for up to 16 threads: work, longest chain, "
+               "waiting, as comma-separated lines");
   app.add_flag("--csv", request.csv, "Lines of comma-separated figures below a line of names");
   try {
     app.parse(argc, argv);

@@ -37,6 +37,7 @@ set(RUBBLE_PUBLIC_HEADERS
   kernel/settling/settle.h
   kernel/settling/settle_checkpoint.h
   kernel/settling/track_recorder.h
+  kernel/solver/sweep_figures.h
   kernel/world/world.h
   kernel/world/world_diagnostics.h
   kernel/world/world_rest.h

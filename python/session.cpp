@@ -1,4 +1,5 @@
 // The robots of a mission stepped from Python, and what their sensors measure meanwhile.
+#include "app/provenance/provenance.h"
 #include "app/session/session.h"
 
 #include <pybind11/stl.h>
@@ -50,7 +51,8 @@ class MissionSession {
     const Scenario& whole = settled_->mission.scenario;
     Scenario& bare = alone_->scenario;
     bare = Scenario();
-    bare.seed = whole.seed, bare.start_ns = whole.start_ns, bare.settle = whole.settle;
+    adopt_pile(bare, whole);
+    bare.seed = whole.seed, bare.start_ns = whole.start_ns, bare.surroundings = whole.surroundings;
     bare.robots = {make_robot_item(kind)};
     if (friction && !(*friction >= 0 && *friction <= 2))
       throw InputError({"", 0, "friction", "out of range", "0 to 2", std::to_string(*friction), ""});

@@ -18,8 +18,6 @@
 #include "io/base/atomic_file.h"
 #include "io/base/csv_text.h"
 #include "io/recording/recording_queue.h"
-#include "kernel/base/hash.h"
-#include "kernel/base/system/disk_cache.h"
 #include "render/gl/gl_context.h"
 #include "render/view/drawn_by.h"
 

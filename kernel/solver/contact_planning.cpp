@@ -162,14 +162,26 @@ void ContactSolver::share_inertia(const std::vector<Body>& bodies) {
   }
 }
 
-void ContactSolver::pack() {
-  plan_.begin(domain_count_, domains_);
+// While a pile lies awake, its contacts stay the same from step to step, and so does the plan.
+bool ContactSolver::note_touches() {
+  const std::int32_t beyond = std::int32_t(moving_.size());
+  touches_.clear();
   for (const Head& head : heads_) {
     if (head.tree) continue;
-    const std::int32_t beyond = std::int32_t(moving_.size());
-    plan_.add(head.contact, number_[head.body_a],
-              head.body_b == kGround ? beyond : number_[head.body_b], head.count);
+    const std::int32_t b = head.body_b == kGround ? beyond : number_[head.body_b];
+    touches_.push_back({head.contact, number_[head.body_a], b, head.count});
   }
+  touches_.swap(planned_);
+  const bool same = !planned_.empty() && plan_.domain_count() == domain_count_ && domains_ == planned_domains_ &&
+                    planned_ == touches_;
+  planned_domains_ = domains_;
+  return same;
+}
+
+void ContactSolver::pack() {
+  if (note_touches()) return;
+  plan_.begin(domain_count_, domains_);
+  for (const Touch& touch : planned_) plan_.add(touch.contact, touch.a, touch.b, touch.rows);
   plan_.finish();
   batches_.resize(std::size_t(plan_.batch_count()));
   std::int32_t rows = 0;
@@ -188,6 +200,20 @@ int ContactSolver::choose_domain_count(const ThreadPool& pool) {
   const int swept = int(heads_.size() - tree_order_.size());
   const int most = std::min({pool.threads(), swept / kLeastContacts, kMostDomains});
   return most < 2 || pool.crowded() ? 1 : most;
+}
+
+SweepFigures ContactSolver::plan_sweeps(int threads, const std::vector<Body>& bodies) const {
+  ContactSolver other;
+  const auto moves = [&bodies](std::int32_t body) {
+    return body != kGround && bodies[body].awake && bodies[body].tree < 0;
+  };
+  for (const Head& head : heads_) {
+    if (!head.tree && (moves(head.body_a) || moves(head.body_b))) other.heads_.push_back(head);
+  }
+  other.domain_count_ = std::clamp(threads, 1, kMostDomains);
+  other.number_bodies(bodies);
+  other.pack();
+  return other.plan_.figures();
 }
 
 }  // namespace rubble

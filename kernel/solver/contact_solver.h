@@ -57,6 +57,9 @@ class ContactSolver {
   // as it counted as heavier than it is (see share_inertia).
   bool has_intervened(std::int32_t body) const;
 
+  // What so many threads would gain in the sweeps of the last solve(), over contacts of bodies that are awake now.
+  SweepFigures plan_sweeps(int threads, const std::vector<Body>& bodies) const;
+
  private:
   class Sweeper;
 
@@ -65,6 +68,15 @@ class ContactSolver {
     std::int32_t contact = 0, body_a = 0, body_b = 0, count = 0;
     float up = 0;       // of the normal
     bool tree = false;  // with an awake link of a tree
+  };
+
+  // What a plan is made of: numbers of moving bodies, or beyond them.
+  struct Touch {
+    std::int32_t contact, a, b, rows;
+
+    bool operator==(const Touch& t) const {
+      return contact == t.contact && a == t.a && b == t.b && rows == t.rows;
+    }
   };
 
   void note_heads(const std::vector<Body>& bodies, const std::vector<std::int32_t>& order,
@@ -77,6 +89,7 @@ class ContactSolver {
   int choose_domain_count(const ThreadPool& pool);
   void divide(const std::vector<Body>& bodies);
   void note_places(const std::vector<Body>& bodies);
+  bool note_touches();  // true: the plan has the same
   void pack();
   void note_bodies(const std::vector<Body>& bodies);
   void note_motions(const std::vector<Motion>& velocities);
@@ -109,6 +122,8 @@ class ContactSolver {
   std::vector<PushRow> pushes_;               // by row
   std::vector<std::uint8_t> wants_push_;      // by batch
   std::vector<std::uint8_t> pushed_;          // by moving body
+  std::vector<Touch> touches_, planned_;      // of the plan before, and of this one
+  std::vector<std::uint8_t> planned_domains_; // by moving body
   SweepPlan plan_;
   int domain_count_ = 1;
   std::vector<float> places_, sorted_places_;  // by moving body

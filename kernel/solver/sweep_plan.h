@@ -7,8 +7,8 @@
 //
 // Every moving body belongs to a domain, and each domain to a thread, which solves the contacts inside it
 // and, of those between two domains, the ones that fall to it. The plan imagines the threads at work, each
-// batch taking as long as it has rows: whoever is free takes a batch of what may be solved by then
-// (ready_contacts.h). The time of a batch is its end in this: later than the ends of all batches before it
+// batch taking as long as it has rows, and a while until others see its end: whoever is free takes a batch
+// of what may be solved by then (ready_contacts.h). The time of a batch is its end in this: later than the ends of all batches before it
 // on its thread, and of all before it with one of its bodies. Where such a batch is another thread's, the
 // thread waits until that has been solved. Times only rise, so no two threads wait for each other.
 //
@@ -21,6 +21,7 @@
 
 #include "kernel/collision/contact.h"
 #include "kernel/solver/ready_contacts.h"
+#include "kernel/solver/sweep_figures.h"
 #include "kernel/solver/wide.h"
 
 namespace rubble {
@@ -54,6 +55,8 @@ class SweepPlan {
   // a, b: numbers of moving bodies; domains.size(): does not move. Not both.
   void add(std::int32_t contact, std::int32_t a, std::int32_t b, int rows);
   void finish();
+  static constexpr int cost(int rows) { return rows + kBatchCost; }  // of a batch, in rows
+  SweepFigures figures() const;
 
   int domain_count() const { return domain_count_; }
   // Sorted by domain and time.
@@ -72,6 +75,8 @@ class SweepPlan {
   }
 
  private:
+  // What a batch costs besides its rows, friction above all, in rows; unit: 1
+  static constexpr int kBatchCost = 4;
   static constexpr int kRowCounts = Contact::kMaxPoints + 1;
   using IndexList = std::vector<std::int32_t>;
 

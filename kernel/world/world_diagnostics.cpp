@@ -81,6 +81,8 @@ Vec3 World::Diagnostics::angular_momentum() const {
   return sum;
 }
 
+SweepFigures World::Diagnostics::plan_sweeps(int threads) const { return impl_->solution.plan_sweeps(threads); }
+
 void World::Diagnostics::set_on_stage(std::function<void(StepStage)> on_stage) { impl_->on_stage = std::move(on_stage); }
 
 }  // namespace rubble

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "kernel/solver/sweep_figures.h"
 #include "kernel/world/world.h"
 
 namespace rubble {
@@ -27,6 +28,9 @@ class World::Diagnostics {
   double potential_energy() const;  // against z = 0, and of springs; unit: J
   Vec3 linear_momentum() const;     // unit: kg m/s
   Vec3 angular_momentum() const;    // about the origin; unit: kg m2/s
+
+  // What so many threads would gain in the sweeps over the contacts of the last step, whatever the number of threads is.
+  SweepFigures plan_sweeps(int threads) const;
 
   // Called at the beginning of each stage of a step, and with `none` at its end. Benches measure stages with it,
   // because a world reads no clock.

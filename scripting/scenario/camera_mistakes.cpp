@@ -246,6 +246,9 @@ void check_forms(const MissionForm& form, std::vector<Diagnostic>& mistakes) {
                         "each of `cameras` has keys of its own"});
   if (form.imu_on && !form.rest.imus.empty())
     mistakes.push_back({"", 0, "imu.on", "contradicts imus", "one of both", "both", ""});
+  // A unit that is off is in no list.
+  if (const Carrier& ride = form.imu.ride; !form.imu_on && !ride.on() && !ride.link.empty())
+    mistakes.push_back({"", 0, "imu.ride.link", "a link without a robot", "imu.ride.robot as well", "\"" + ride.link + "\"", ""});
 }
 
 void check_sensor_names(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {

@@ -159,7 +159,7 @@ TEST(RobotRun, TheBitsDoNotDependOnThreads) {
 TEST(RobotRun, ARestartHasTheBitsOfANewRun) {
   const Settled& s = brick_heap();
   const RobotModel crawler = make_crawler(), rover = make_rover();
-  RobotRunOptions options = run_options(1.5);
+  RobotRunOptions options = run_options(1.2, 1);
   options.restarts = true;
   RobotRun run(s.pile, s.state, options);
   std::uint64_t hashes[4] = {};
@@ -169,7 +169,7 @@ TEST(RobotRun, ARestartHasTheBitsOfANewRun) {
     run.add(crawler, {{}, {k == 1 ? 2.5 : -1.6, 0.2, 0.002}}, push(crawler, 0.4));
     hashes[k] = run.run().hash();
   }
-  RobotRun fresh(s.pile, s.state, run_options(1.5));
+  RobotRun fresh(s.pile, s.state, run_options(1.2, 1));
   fresh.add(crawler, {{}, {-1.6, 0.2, 0.002}}, push(crawler, 0.4));
   hashes[3] = fresh.run().hash();
   EXPECT_EQ(hashes[0], hashes[3]);

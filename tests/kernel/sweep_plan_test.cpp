@@ -143,6 +143,31 @@ TEST(SweepPlan, EveryContactIsInOneLaneAndNoBatchHasABodyTwice) {
   EXPECT_EQ(lanes, kContacts);
 }
 
+TEST(SweepPlan, FiguresSayWhatThreadsGain) {
+  const std::vector<Touch> touches = make_touches();
+  std::int64_t alone = 0;
+  for (int count : {1, 2, 7}) {
+    const std::vector<std::uint8_t> domains = make_domains(count);
+    SweepPlan plan;
+    plan.begin(count, domains);
+    for (int i = 0; i < kContacts; ++i) plan.add(i, touches[i].a, touches[i].b, touches[i].rows);
+    plan.finish();
+    const SweepFigures f = plan.figures();
+    EXPECT_EQ(f.threads, count);
+    EXPECT_EQ(f.contacts, kContacts);
+    EXPECT_EQ(f.batches, plan.batch_count());
+    EXPECT_EQ(f.waits > 0, count > 1);
+    EXPECT_GE(f.time, f.longest);
+    EXPECT_GE(f.time * count, f.work);  // what is left over is waiting
+    if (count == 1) {
+      EXPECT_EQ(f.time, f.work);
+      alone = f.time;
+    } else {
+      EXPECT_LT(f.time, alone);
+    }
+  }
+}
+
 // Enough contacts for three threads, falling and lying, with overlaps that are pushed apart.
 TEST(SweepPlan, AHeapHasTheSameBitsWithAnyNumberOfThreads) {
   const auto drop = [](int threads) {
@@ -163,8 +188,25 @@ TEST(SweepPlan, AHeapHasTheSameBitsWithAnyNumberOfThreads) {
     return state.state_hash();
   };
   const std::uint64_t one = drop(1);
-  EXPECT_EQ(drop(2), one);
-  EXPECT_EQ(drop(3), one);
+  for (int threads : {2, 3, 8}) EXPECT_EQ(drop(threads), one) << threads << " threads";
+}
+
+// A world that goes on keeps its plan; one that begins with a snapshot makes it anew.
+TEST(SweepPlan, APileThatLiesAwakeHasTheSameBitsWhenPlannedAnew) {
+  WorldOptions options;
+  options.sleeping = false;
+  const std::vector<PieceType> types{testing::box_type("b", 0.3, 0.2, 0.1)};
+  World world(types, options), other(types, options);
+  std::vector<NewPiece> pieces;
+  for (int i = 0; i < 20; ++i) pieces.push_back(testing::at(0, {0.35 * (i % 5), 0, 0.06 + 0.11 * (i / 5)}, {}));
+  world.add(pieces);
+  testing::run(world, 2);
+  other.restore(*world.snapshot());
+  for (int step = 0; step < 30; ++step) world.step(), other.step();
+  for (int i = 0; i < world.size(); ++i) {
+    EXPECT_EQ(world.piece(i).world_from_body.translation.x, other.piece(i).world_from_body.translation.x) << i;
+    EXPECT_EQ(world.piece(i).world_from_body.translation.z, other.piece(i).world_from_body.translation.z) << i;
+  }
 }
 
 }  // namespace sweep_plan_test

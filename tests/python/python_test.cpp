@@ -86,14 +86,16 @@ TEST(NightlyPython, APolicyLearns) { expect_tests("test_ppo.py -k Training"); }
 
 TEST(PythonBench, WritesItsTableIntoTheDocument) {
   const std::string copy = std::filesystem::temp_directory_path() / ("rubble_envs_" + std::to_string(getpid()) + ".md");
-  std::ofstream(copy) << "before\n<!-- begin envs -->\nold\n<!-- end envs -->\nafter\n";
+  std::ofstream(copy) << "before\n<!-- begin envs -->\nold\n<!-- end envs -->\nafter\n<!-- begin batch -->\n<!-- end batch -->\n";
   const Ran ran = run("/usr/bin/python3 bench/envs_bench.py --steps 5 --threads 1 --colour --write " + copy);
   EXPECT_EQ(ran.status, 0) << ran.output;
+  const Ran batch = run("/usr/bin/python3 bench/envs_bench.py --batch 2 --steps 4 --write " + copy);
+  EXPECT_EQ(batch.status, 0) << batch.output;
   std::ostringstream text;
   text << std::ifstream(copy).rdbuf();
   EXPECT_EQ(text.str().find("old"), std::string::npos) << text.str();
   for (const char* part : {"before\n", "depth 64 x 64 | 1 | ", "depth and colour 128 x 128 | 1 | ", "| `SnakeExplore`",
-                           "<!-- end envs -->\nafter\n"})
+                           "<!-- end envs -->\nafter\n", "|2, 2 threads|", "\n|`CrawlerNav`|"})
     EXPECT_NE(text.str().find(part), std::string::npos) << part << "\n" << text.str();
   std::filesystem::remove(copy);
 }

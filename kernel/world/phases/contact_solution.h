@@ -20,6 +20,7 @@ class ContactSolution {
   void run(StepPairs& step, WorldTrees& trees, Ties& ties, const SpeedLimiter& limits, StepMotions& motions);
   // Whether it moved a body otherwise than its weight does, impulses aside.
   bool has_intervened(std::int32_t body) const { return solver_.has_intervened(body); }
+  SweepFigures plan_sweeps(int threads) const { return solver_.plan_sweeps(threads, data_.bodies); }
 
  private:
   // Where a contact stands in the solver's order.

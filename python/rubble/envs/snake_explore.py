@@ -88,16 +88,23 @@ class SnakeExplore(Env):
 
     def _find_start(self):
         """On the ground before the entrance, as near as the snake has room (or as much farther as is drawn), looking at it."""
-        world, away = self._world, self._drawn.get("poses.away", 0.0)
+        away = self._drawn.get("poses.away", 0.0)
+        found = first = self._world.once("start of a snake", lambda: next(self._find_rooms(), None))
+        if first and away:
+            back = self._find_room(first[0], first[1] + away, 10)
+            found = (first[0], back) if back else next(self._find_rooms(away), None)
+        if not found:
+            raise mistake("mission", "no room for a snake before the entrance of a void: expected 1 m of flat ground within "
+                                     f"{6 + away:g} m of it")
+        yaw, back = found
+        return geometry.pose(self._head_at(yaw, back), (0, 0, yaw))
+
+    def _find_rooms(self, away=0.0):
+        """Places where it has room, as yaw and distance from the entrance, one for each direction that has one."""
         for turn in (0.0, 0.4, -0.4, 0.8, -0.8):
-            yaw = world.yaw + turn
-            back = self._find_room(yaw, 0.2, 29)
-            if back is not None and away:
-                back = self._find_room(yaw, back + away, 10)
-            if back is not None:
-                return geometry.pose(self._head_at(yaw, back), (0, 0, yaw))
-        raise mistake("mission", "no room for a snake before the entrance of a void: expected 1 m of flat ground within 6 m "
-                                 "of it")
+            back = self._find_room(self._world.yaw + turn, 0.2 + away, 29)
+            if back:
+                yield self._world.yaw + turn, back
 
     def _head_at(self, yaw, back):
         return self._world.entrance * [1, 1, 0] - back * np.append(_core._directions([yaw])[0], 0.0) + [0, 0, _HEIGHT]

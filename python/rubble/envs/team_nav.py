@@ -43,8 +43,6 @@ Arguments:
   threads  number of threads; results do not depend on it
   randomization  a Randomization: what each episode draws besides
 """
-import math
-
 import numpy as np
 
 from .. import _core, geometry
@@ -136,7 +134,7 @@ class TeamNav(ParallelEnv):
     def _place(self, ring, start, goals):
         """The robots on a ring about the pile, equally far from one another; the goals on the other side."""
         count = len(self.possible_agents)
-        if 2 * ring * math.sin(math.pi / count) < _ROOM:
+        if 2 * ring * _core._directions([np.pi / count])[0, 1] < _ROOM:
             raise mistake("around", f"no room for {count} robots about the pile: expected more than {self._around:g} m")
         angles = start + 2 * np.pi * np.arange(count) / count
         at, self._goals, poses = ring * _core._directions(angles), {}, {}

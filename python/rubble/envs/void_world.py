@@ -31,7 +31,11 @@ class VoidWorld:
         self.view = _core._Explorer(explored, self.void["cells"], voxel, radius, size, fov_deg, max_range, threads)
         self._size, self._fov_deg, self._max_range, self._metres = size, fov_deg, max_range, metres
         self._colour, self._renderers, self._threads, self._drawn = colour, {}, threads, drawn
-        self._settled = settled  # as long as this is there, others find it
+        self._settled, self._of = settled, (radius, voxel)  # as long as the pile is there, others find it
+
+    def once(self, key, make):
+        """What follows from the pile and this void alone, made once for all environments."""
+        return self._settled.once((key, *self._of), make)
 
     def begin(self):
         """For a new episode: nothing is seen, and all is as drawn."""

@@ -186,7 +186,7 @@ TEST(Resume, ARunThatIsAtWorkKeepsOthersOut) {
   const ScratchFolder scratch;
   write_file(scratch / "long.lua", kTinyMission);
   const std::string folder = scratch / "a";
-  const std::string more = " --set pile.layers=40 --set pile.pieces_per_layer=60 --set pile.spawn_bounds=3,3,3 --out " + folder;
+  const std::string more = " --set pile.layers=600 --set pile.pieces_per_layer=60 --set pile.spawn_bounds=3,3,3 --out " + folder;
   Outcome second, third;
   const auto meanwhile = [&] {  // asked again and again while the first is at work
     if (!fs::exists(folder + "/unfinished/run.json")) return false;

@@ -73,7 +73,7 @@ TEST(Resume, ContinuesWhatASignalStoppedAndSaysHow) {
   // Large enough to be settling still when it is stopped.
   const std::string run =
       "run " + (scratch / "long.lua") + " --out " + folder +
-      " --set pile.layers=40 --set pile.pieces_per_layer=60 --set pile.spawn_bounds=3,3,3";
+      " --set pile.layers=300 --set pile.pieces_per_layer=60 --set pile.spawn_bounds=5,5,5";
   const std::string checkpoint = folder + "/unfinished/settle.checkpoint";
   for (const int signal : {SIGINT, SIGTERM}) {
     const std::string command = fs::exists(folder) ? "resume " + folder : run;
@@ -186,12 +186,13 @@ TEST(Resume, ARunThatIsAtWorkKeepsOthersOut) {
   const ScratchFolder scratch;
   write_file(scratch / "long.lua", kTinyMission);
   const std::string folder = scratch / "a";
-  const std::string more = " --set pile.layers=600 --set pile.pieces_per_layer=60 --set pile.spawn_bounds=3,3,3 --out " + folder;
+  const std::string more = " --set pile.layers=300 --set pile.pieces_per_layer=60 --set pile.spawn_bounds=5,5,5 --out " + folder;
   Outcome second, third;
-  const auto meanwhile = [&] {  // asked again and again while the first is at work
+  const auto meanwhile = [&] {  // asked again and again while the first is at work, which goes on for longer than others wait
     if (!fs::exists(folder + "/unfinished/run.json")) return false;
-    second = run_rubble("run " + (scratch / "long.lua") + " --force --out " + folder);
+    std::thread beside([&] { second = run_rubble("run " + (scratch / "long.lua") + " --force --out " + folder); });
     third = run_rubble("resume " + folder);
+    beside.join();
     return true;
   };
   const Outcome first = run_rubble_and_signal("run " + (scratch / "long.lua") + more, meanwhile, SIGTERM);

@@ -1,4 +1,5 @@
 #include "app/drive/drive_session.h"
+#include "app/drive/words.h"
 
 #include <algorithm>
 #include <chrono>
@@ -23,13 +24,6 @@ constexpr double kLeastFog = 0.005, kMostFog = 10;    // unit: 1/m
 std::string choose_folder(const DriveRequest& request) {
   if (!request.of.out.empty()) return request.of.out;
   return "out/" + std::filesystem::path(request.of.mission).stem().string() + "_drive";
-}
-
-template <typename... Values>
-std::string words(const char* format, Values... values) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
 }
 
 double changed(double value, bool up, double least, double most) {

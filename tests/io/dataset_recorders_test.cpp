@@ -276,7 +276,8 @@ TEST(WebDataset, IsReadByTarAndNumpy) {
       (folder / "normals.npy") + "'); b = numpy.load('" + (folder / "instance.npy") +
       "'); print(a.shape, a.dtype, b.shape, b.dtype, b.min()); a.tofile('" + (folder / "normals") + "')\"");
   EXPECT_EQ(read.output, "(64, 96, 3) float32 (64, 96) int32 -2\n");
-  const auto& normals = make_full_frame(1).get<float>("normals");
+  const Frame frame = make_full_frame(1);
+  const std::vector<float>& normals = frame.get<float>("normals");
   const std::string bytes = read_text(folder / "normals");
   ASSERT_EQ(bytes.size(), normals.size() * sizeof(float));
   EXPECT_EQ(std::memcmp(bytes.data(), normals.data(), bytes.size()), 0);

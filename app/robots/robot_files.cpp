@@ -6,6 +6,7 @@
 #include "io/base/csv_text.h"
 #include "io/base/number_text.h"
 #include "io/robot/urdf_writer.h"
+#include "io/mesh/stl_writer.h"
 #include "io/scenes/scene_text.h"
 #include "io/state/track_file.h"
 #include "kernel/base/system/output_files.h"
@@ -110,7 +111,7 @@ void write_robot_description(const std::string& folder, const std::string& name,
   make_folder_below(folder, meshes);
   for (const RobotLink& link : model.links) {
     if (link.parts.empty() && link.looks.triangles.empty()) continue;
-    write_text_file(folder + "/" + link_mesh_file(meshes, link.name), plain_obj(link.name, make_link_mesh(link, "")));
+    write_text_file(folder + "/" + link_mesh_file(meshes, link.name), stl_bytes(make_link_mesh(link, "")));
     for (std::size_t k = 0; k < link.parts.size(); ++k)
       write_text_file(folder + "/" + part_mesh_file(meshes, link.name, k), hull_obj(calc_hull(link.parts[k].points)));
   }

@@ -31,7 +31,27 @@ void put_triangle(std::string& bytes, const Vec3f& a, const Vec3f& b, const Vec3
   put(bytes, std::uint16_t{0});
 }
 
+std::string make_header(std::uint64_t triangles) {
+  std::string bytes(kHeader);
+  bytes.resize(kHeaderSize, ' ');
+  put(bytes, static_cast<std::uint32_t>(triangles));
+  return bytes;
+}
+
+void put_triangles(std::string& bytes, const MeshInstance& instance) {
+  std::vector<Vec3f> world;
+  world.reserve(instance.mesh->positions.size());
+  for (std::uint32_t v = 0; v < instance.mesh->positions.size(); ++v) world.push_back(to_world(instance, v));
+  for (const auto& t : instance.mesh->triangles) put_triangle(bytes, world[t[0]], world[t[1]], world[t[2]]);
+}
+
 }  // namespace
+
+std::string stl_bytes(const TriangleMesh& mesh) {
+  std::string bytes = make_header(mesh.triangles.size());
+  put_triangles(bytes, {&mesh, 1, {}});
+  return bytes;
+}
 
 void write_stl(const std::string& path, const std::vector<MeshInstance>& instances) {
   std::uint64_t count = 0;
@@ -39,21 +59,11 @@ void write_stl(const std::string& path, const std::vector<MeshInstance>& instanc
   if (count > std::numeric_limits<std::uint32_t>::max()) {
     throw RunError("cannot write " + path + ": STL holds at most 2^32 - 1 triangles");
   }
-  std::string bytes(kHeader);
-  bytes.resize(kHeaderSize, ' ');
-  put(bytes, static_cast<std::uint32_t>(count));
   AtomicFile file(path);
-  file.write(bytes);
+  file.write(make_header(count));
   for (const MeshInstance& instance : instances) {
-    std::vector<Vec3f> world;
-    world.reserve(instance.mesh->positions.size());
-    for (std::uint32_t v = 0; v < instance.mesh->positions.size(); ++v) {
-      world.push_back(to_world(instance, v));
-    }
-    bytes.clear();
-    for (const auto& t : instance.mesh->triangles) {
-      put_triangle(bytes, world[t[0]], world[t[1]], world[t[2]]);
-    }
+    std::string bytes;
+    put_triangles(bytes, instance);
     file.write(bytes);
   }
   file.commit();

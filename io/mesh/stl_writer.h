@@ -20,4 +20,7 @@ struct MeshInstance {
 // RunError when it cannot be written.
 void write_stl(const std::string& path, const std::vector<MeshInstance>& instances);
 
+// The bytes of such a file with one mesh. Fewer than 2^32 triangles.
+std::string stl_bytes(const TriangleMesh& mesh);
+
 }  // namespace rubble

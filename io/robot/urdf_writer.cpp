@@ -101,7 +101,7 @@ std::string frame_text(const RobotModel& model, const RobotFrame& frame, const s
 }  // namespace
 
 std::string link_mesh_file(const std::string& folder, const std::string& link) {
-  return folder + "/" + file_name_of(link) + ".obj";
+  return folder + "/" + file_name_of(link) + ".stl";
 }
 
 std::string part_mesh_file(const std::string& folder, const std::string& link, std::size_t part) {

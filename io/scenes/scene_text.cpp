@@ -141,17 +141,6 @@ std::string mesh_obj(const std::string& name, const TriangleMesh& mesh) {
   return text;
 }
 
-std::string plain_obj(const std::string& name, TriangleMesh mesh) {
-  mesh.surfaces.assign(mesh.triangles.size(), 0);
-  mesh.surface_names.clear(), mesh.paints.clear(), mesh.paint_corners.clear();
-  PileModel::Piece piece;
-  piece.name = name;
-  std::string text = kObjComment;
-  ObjCounts counts;
-  put_obj_object(text, piece, mesh, weld(mesh), ObjContent::solid, counts);
-  return text;
-}
-
 std::string surface_obj(const std::string& name, const TriangleMesh& surface) {
   const WeldedMesh welded = weld(surface);
   if (welded.positions.size() < 4 || welded.triangles.empty()) return "";

@@ -59,7 +59,6 @@ struct SceneMeshFiles {
 SceneMeshFiles write_mesh_files(const ExportModel& model, FolderWriter& files);
 void write_pictures(const std::vector<SceneLook>& looks, FolderWriter& files);
 std::string hull_obj(const Hull& hull, double scale = 1);
-std::string plain_obj(const std::string& name, TriangleMesh mesh);            // positions and faces, without materials
 std::string mesh_obj(const std::string& name, const TriangleMesh& mesh);     // with materials.mtl
 // Without a material; empty where it has fewer than four different corners.
 std::string surface_obj(const std::string& name, const TriangleMesh& surface);

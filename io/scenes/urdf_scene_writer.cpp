@@ -4,6 +4,7 @@
 
 #include "io/base/number_text.h"
 #include "io/base/xml_text.h"
+#include "io/mesh/stl_writer.h"
 #include "io/robot/urdf_writer.h"
 #include "io/scenes/scene_text.h"
 #include "io/scenes/scene_writers.h"
@@ -187,7 +188,7 @@ void write_robot(const ExportModel& model, const SimModel& robot, const std::str
     std::size_t part = 0;
     for (const SimPart& p : robot.links[i].parts) {
       if (p.mesh >= 0)
-        files.write("robots/" + link_mesh_file(meshes, link.name), plain_obj(link.name, *model.sim.meshes[std::size_t(p.mesh)].mesh));
+        files.write("robots/" + link_mesh_file(meshes, link.name), stl_bytes(*model.sim.meshes[std::size_t(p.mesh)].mesh));
       if (p.shape < 0) continue;
       for (const Hull& hull : model.sim.shapes[std::size_t(p.shape)].hulls)
         files.write("robots/" + part_mesh_file(meshes, link.name, part++), hull_obj(hull));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/base/principal_axes.h"
 #include "kernel/geometry/shape.h"
 #include "kernel/robot/parts.h"
 
@@ -63,27 +64,6 @@ bool is_nothing(const Mat3& inertia, double mass) {
   return std::max({norm(inertia.rows[0]), norm(inertia.rows[1]), norm(inertia.rows[2])}) < mass * kRadius * kRadius;
 }
 
-// Of a symmetric matrix, with its axes as the columns of `axes` (Golub and Van Loan, Matrix Computations, 8.5: Jacobi's
-// method).
-Vec3 find_principal(Mat3 m, Mat3& axes) {
-  constexpr int kSweeps = 20;
-  axes = Mat3::identity();
-  for (int sweep = 0; sweep < kSweeps; ++sweep)
-    for (const auto& [p, q] : {std::make_pair(0, 1), std::make_pair(0, 2), std::make_pair(1, 2)}) {
-      if (m.rows[p][q] == 0) continue;
-      const double tau = (m.rows[q][q] - m.rows[p][p]) / (2 * m.rows[p][q]);
-      const double t = (tau >= 0 ? 1 : -1) / (std::abs(tau) + std::sqrt(1 + tau * tau));
-      const double c = 1 / std::sqrt(1 + t * t), s = t * c;
-      Mat3 turn = Mat3::identity();
-      turn.rows[p][p] = turn.rows[q][q] = c;
-      turn.rows[p][q] = s, turn.rows[q][p] = -s;
-      m = turn.transposed() * m * turn;
-      m.rows[p][q] = m.rows[q][p] = 0;
-      axes = axes * turn;
-    }
-  return {m.rows[0].x, m.rows[1].y, m.rows[2].z};
-}
-
 // The second moments of the mass, trace(I) / 2 - I, cannot be below 0: rounding and programs for drawing make such
 // moments; masses in points of one line have none about it. Where some are below or 0, they become small ones of their
 // body's size, which changes the inertia least. False: nothing was to do, or moments themselves are below 0.
@@ -91,7 +71,7 @@ bool repair(Mat3& inertia) {
   constexpr double kLeastShare = 1e-3;  // of the largest second moment
   constexpr double kRounding = 1e-9;    // of the largest moment
   Mat3 axes;
-  const Vec3 moments = find_principal(inertia, axes);
+  const Vec3 moments = find_principal_axes(inertia, axes);
   const double half = (moments.x + moments.y + moments.z) / 2;
   Vec3 second{half - moments.x, half - moments.y, half - moments.z};
   const double least = kLeastShare * std::max({second.x, second.y, second.z});

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "kernel/base/principal_axes.h"
+
 namespace rubble {
 namespace {
 
@@ -38,27 +40,10 @@ const SimJoint* find_parent_joint(const SimModel& model, int link) {
   return nullptr;
 }
 
-// Cyclic Jacobi rotations (Golub and Van Loan, Matrix Computations, 8.5).
 PrincipalInertia calc_principal_inertia(const Mat3& inertia) {
-  Mat3 a = inertia, axes = Mat3::identity();
-  for (int sweep = 0; sweep < 24; ++sweep) {
-    for (int p = 0; p < 2; ++p) {
-      for (int q = p + 1; q < 3; ++q) {
-        const double off = a.rows[p][q];
-        if (off == 0) continue;
-        const double tau = (a.rows[q][q] - a.rows[p][p]) / (2 * off);
-        const double t = (tau >= 0 ? 1 : -1) / (std::abs(tau) + std::sqrt(1 + tau * tau));
-        const double c = 1 / std::sqrt(1 + t * t), s = t * c;
-        Mat3 turn = Mat3::identity();
-        turn.rows[p][p] = turn.rows[q][q] = c;
-        turn.rows[p][q] = s, turn.rows[q][p] = -s;
-        a = turn.transposed() * a * turn;
-        a.rows[p][q] = a.rows[q][p] = 0;
-        axes = axes * turn;
-      }
-    }
-  }
-  return {{a.rows[0].x, a.rows[1].y, a.rows[2].z}, quat_of(axes)};
+  Mat3 axes;
+  const Vec3 moments = find_principal_axes(inertia, axes);
+  return {moments, quat_of(axes)};
 }
 
 std::vector<std::array<int, 3>> calc_fans(const Hull& hull) {

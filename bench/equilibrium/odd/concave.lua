@@ -8,7 +8,7 @@ return rubble.mission {
     spawn_position = { 0, 0, 5 },
     spawn_bounds = { 5, 5, 9 },
     mix = {
-      { asset = "chair" }, { asset = "rebar_tangle" }, { asset = "pipe_shard" }, { asset = "slab_hanging_bars" },
+      { asset = "chair" }, { asset = "rebar_tangle" }, { asset = "pipe_shard" }, { asset = "chunk_bars_2" },
       { asset = "door_frame" }, { asset = "box_culvert", scale = 0.4 }, { asset = "hollow_core" },
     },
   },

@@ -57,8 +57,8 @@ double calc_depth(const PosedPiece& a, double scale_a, const PosedPiece& b, doub
 
 }  // namespace
 
-std::vector<PlacedOverlap> find_placed_overlaps(const std::vector<PieceType>& types,
-                                                const std::vector<Placement>& placed, double least) {
+std::vector<PlacedOverlap> find_placed_overlaps(const std::vector<PieceType>& types, const std::vector<Placement>& placed,
+                                                std::size_t own, double least) {
   std::map<int, Shape> shapes;
   std::vector<PosedPiece> pieces;
   for (std::size_t i = 0; i < placed.size(); ++i) {
@@ -69,7 +69,7 @@ std::vector<PlacedOverlap> find_placed_overlaps(const std::vector<PieceType>& ty
     pieces.push_back(pose(int(i), placed[i], shape->second));
   }
   std::vector<PlacedOverlap> overlaps;
-  for (std::size_t i = 0; i < pieces.size(); ++i)
+  for (std::size_t i = 0; i < pieces.size() && std::size_t(pieces[i].index) < own; ++i)
     for (std::size_t k = i + 1; k < pieces.size(); ++k) {
       const PosedPiece &a = pieces[i], &b = pieces[k];
       if (!are_near(a.box, b.box, least)) continue;

@@ -211,12 +211,13 @@ TEST(PlacedOverlaps, AreFoundWithTheirDepth) {
     return placement;
   };
   const std::vector<Placement> placed{place(0, {0, 0, 0.1}, true), place(1, {1, 0, 0.67}, false), place(1, {-1, 0, 0.7}, false)};
-  const std::vector<PlacedOverlap> found = find_placed_overlaps(types, placed, 0.005);
+  const std::vector<PlacedOverlap> found = find_placed_overlaps(types, placed, 3, 0.005);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].a, 0);
   EXPECT_EQ(found[0].b, 1);
   EXPECT_NEAR(found[0].depth, 0.03, 1e-5);
-  EXPECT_TRUE(find_placed_overlaps(types, placed, 0.04).empty());
+  EXPECT_TRUE(find_placed_overlaps(types, placed, 3, 0.04).empty());
+  EXPECT_EQ(find_placed_overlaps(types, placed, 1, 0.005).size(), found.size());  // all with the first
 }
 
 }  // namespace collision_test

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "app/assets/asset_library.h"
-#include "app/fines/lay_fines.h"
+#include "app/fines/pile_fines.h"
 #include "app/scene/build_scene.h"
 #include "app/sensors/build_camera.h"
-#include "app/surroundings/lay_surroundings.h"
+#include "app/surroundings/pile_surroundings.h"
 #include "bench/channel_picture.h"
 #include "bench/gallery_list.h"
 #include "bench/program.h"

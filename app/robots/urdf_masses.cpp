@@ -1,4 +1,4 @@
-#include "app/robots/urdf_masses.h"
+#include "app/robots/urdf_parts.h"
 
 #include <algorithm>
 #include <cmath>

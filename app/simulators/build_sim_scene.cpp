@@ -4,10 +4,9 @@
 #include <charconv>
 #include <map>
 
-#include "app/fines/seen_fines.h"
+#include "app/fines/pile_fines.h"
 #include "app/scene/build_scene.h"
 #include "app/scene/look_pictures.h"
-#include "app/simulators/robot_models.h"
 #include "io/base/number_text.h"
 #include "io/scenes/pile_export.h"
 #include "kernel/base/error.h"

@@ -1,4 +1,4 @@
-#include "app/simulators/robot_models.h"
+#include "app/simulators/build_sim_scene.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "app/assets/material_variant.h"
+#include "app/assets/asset_materials.h"
 
 #include <algorithm>
 
@@ -65,6 +65,25 @@ std::optional<Asset> find_variant(const Asset& asset, const std::string& name,
   for (const Material& material : materials)
     if (variant_name(asset.name, material.name) == name) return make_variant(asset, material);
   return std::nullopt;
+}
+
+bool has_paint(const TriangleMesh& mesh) {
+  return std::any_of(mesh.paints.begin(), mesh.paints.end(), [](const auto& paint) { return paint != nullptr; });
+}
+
+void choose_surfaces(TriangleMesh& mesh, const ChooseLook& choose) {
+  constexpr std::size_t kDigits = 8;  // of the hash
+  for (std::size_t s = 0; s < mesh.surface_names.size(); ++s) {
+    std::string& name = mesh.surface_names[s];
+    const SurfacePaint* paint = mesh.paint_of(s);
+    const std::string look = choose(name, paint);
+    if (look.empty() && paint)
+      name = (name.empty() ? "paint" : name) + "_" + paint->sha256.substr(0, kDigits);
+    else
+      name = look;
+    if (!look.empty() && paint) mesh.paints[s] = nullptr;
+  }
+  if (!has_paint(mesh)) mesh.paints.clear(), mesh.paint_corners.clear();
 }
 
 }  // namespace rubble

@@ -1,13 +1,19 @@
-// How well the convex parts of a piece match its mesh, by volume.
+// Convex parts of a mesh: kept on disk between runs, and how well they match the mesh.
 #pragma once
 
 #include <vector>
 
 #include "kernel/base/mesh.h"
+#include "kernel/base/system/disk_cache.h"
+#include "kernel/geometry/decompose.h"
 #include "kernel/geometry/shape.h"
 #include "kernel/model/pile.h"
 
 namespace rubble {
+
+// As decompose(). The entry goes by the mesh's content and the options; a damaged one is made anew.
+Decomposition decompose_cached(const TriangleMesh& mesh, const DiskCache& cache,
+                               const DecomposeOptions& options = {});
 
 struct HullError {
   double mesh = 0;     // volume inside the mesh; unit: m3

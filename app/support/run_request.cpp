@@ -1,4 +1,4 @@
-#include "app/support/run_context.h"
+#include "app/support/run_request.h"
 
 #include <algorithm>
 

@@ -16,7 +16,7 @@
 #include "bench/gallery_list.h"
 #include "bench/program.h"
 #include "io/base/atomic_file.h"
-#include "io/image/jpeg_file.h"
+#include "io/image/image_file.h"
 #include "kernel/base/system/thread_count.h"
 #include "kernel/base/system/disk_cache.h"
 #include "kernel/settling/generator.h"

@@ -15,7 +15,7 @@
 #include "app/support/print.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
-#include "io/base/csv_text.h"
+#include "io/base/escaped_text.h"
 #include "io/recording/recording_queue.h"
 #include "render/gl/gl_context.h"
 #include "render/view/drawn_by.h"

@@ -8,7 +8,7 @@
 #include "app/scene/build_scene.h"
 #include "app/surroundings/pile_surroundings.h"
 #include "app/victims/place_victims.h"
-#include "io/recording/one_camera.h"
+#include "io/recording/frame_order.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/system/output_files.h"
 

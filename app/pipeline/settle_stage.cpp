@@ -15,7 +15,7 @@
 #include "app/surroundings/pile_surroundings.h"
 #include "app/victims/place_victims.h"
 #include "io/base/atomic_file.h"
-#include "io/mesh/track_glb.h"
+#include "io/mesh/mesh_writers.h"
 #include "io/scenes/pile_export.h"
 #include "io/state/checkpoint_file.h"
 #include "io/state/pile_state_file.h"

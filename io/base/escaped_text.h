@@ -1,4 +1,4 @@
-// Text inside an XML 1.0 document.
+// Text inside files whose format gives some characters a meaning.
 #pragma once
 
 #include <string>
@@ -7,6 +7,18 @@
 
 namespace rubble {
 
+// Text inside a table of comma-separated values (RFC 4180).
+// A field: in quotation marks where it has a comma or a quotation mark. Control characters, which would make a row of
+// their own or steer a terminal, are written as \x0a.
+inline std::string csv_text(const std::string& text) {
+  const std::string line = one_line(text);
+  if (line.find_first_of(",\"") == std::string::npos) return line;
+  std::string quoted = "\"";
+  for (const char c : line) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+// Text inside an XML 1.0 document.
 // For an attribute or an element. Bytes that XML forbids, and all beyond ASCII of a text that is not UTF-8, become
 // question marks.
 inline std::string xml_text(const std::string& text) {

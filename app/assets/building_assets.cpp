@@ -8,7 +8,6 @@
 #include "kernel/base/random.h"
 #include "kernel/geometry/hull.h"
 #include "kernel/structure/building.h"
-#include "kernel/structure/buildings/site.h"
 
 namespace rubble {
 namespace {

@@ -5,7 +5,7 @@
 #include "io/state/fines_file.h"
 #include "kernel/base/hash.h"
 #include "kernel/fines/strew_fines.h"
-#include "kernel/geometry/fine_heaps.h"
+#include "kernel/geometry/fine_shapes.h"
 
 namespace rubble {
 namespace {

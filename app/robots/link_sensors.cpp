@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "kernel/queries/query_triangle.h"
-#include "kernel/robot/looks.h"
+#include "kernel/robot/parts.h"
 
 namespace rubble {
 namespace {

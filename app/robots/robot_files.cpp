@@ -11,7 +11,7 @@
 #include "io/state/track_file.h"
 #include "kernel/base/system/output_files.h"
 #include "kernel/geometry/hull.h"
-#include "kernel/robot/looks.h"
+#include "kernel/robot/parts.h"
 #include "scripting/values/value.h"
 
 namespace rubble {

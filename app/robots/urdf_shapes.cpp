@@ -8,7 +8,6 @@
 #include "app/assets/convex_parts.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/portable_math.h"
-#include "kernel/robot/looks.h"
 #include "kernel/robot/parts.h"
 
 namespace rubble {

@@ -14,7 +14,7 @@
 #include "kernel/base/portable_math.h"
 #include "kernel/geometry/shape.h"
 #include "kernel/model/settled_joints.h"
-#include "kernel/surroundings/solid_surface.h"
+#include "kernel/surroundings/make_surroundings.h"
 
 namespace rubble {
 namespace {

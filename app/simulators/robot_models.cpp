@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kernel/robot/looks.h"
+#include "kernel/robot/parts.h"
 #include "scripting/trajectory/trajectory.h"
 
 namespace rubble {

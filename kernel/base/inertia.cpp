@@ -1,4 +1,4 @@
-#include "kernel/base/principal_axes.h"
+#include "kernel/base/inertia.h"
 
 #include <cmath>
 #include <utility>

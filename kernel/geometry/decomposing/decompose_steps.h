@@ -1,4 +1,4 @@
-// Inside of decompose(): a solid cut into boxes, each with what it holds of the surface.
+// Inside of decompose(): its two ways from a mesh to convex parts.
 #pragma once
 
 #include <vector>
@@ -8,6 +8,18 @@
 #include "kernel/geometry/decomposing/solid.h"
 
 namespace rubble::decomposing {
+
+// Meshes that can be cut into convex parts without any error.
+
+// The corners of convex parts that are the mesh itself, where it consists of closed bodies each of which
+// is either convex, of at most `max_corners` corners, or has only faces across three directions at right
+// angles to each other, however they are turned: beams, frames, stairs. Such a body is cut into boxes
+// along its own faces. Bodies may overlap. Empty: the mesh is another one, or needs more than
+// `max_parts`.
+std::vector<std::vector<Vec3>> find_exact_parts(const TriangleMesh& mesh, int max_parts,
+                                                int max_corners);
+
+// A solid cut into boxes, each with what it holds of the surface.
 
 // What the solid has in one box: the hull of the points is the smallest convex part that holds it.
 struct Piece {

@@ -9,7 +9,7 @@
 
 #include "kernel/world/world.h"
 #include "render/scene/robot_sample.h"
-#include "scripting/trajectory/motion_path.h"
+#include "scripting/trajectory/smooth_path.h"
 #include "scripting/trajectory/trajectory.h"
 
 namespace rubble {

@@ -41,7 +41,7 @@ void note_placed_overlaps(const ResolvedMission& mission, const Pile& pile, RunC
   const std::vector<Placement> placed(pile.placed.begin(), pile.placed.begin() + std::ptrdiff_t(own));
   const auto name = [&](int i) {
     const Placement& placement = placed[std::size_t(i)];
-    return "pile.placed[" + std::to_string(i + 1) + "] (" + pile.types[std::size_t(placement.type)].name +
+    return "pile.placed[" + std::to_string(i + 1) + "] (" + pile.types[std::size_t(placement.kind.index)].name +
            (placement.fixed ? ", fixed)" : ")");
   };
   std::size_t told = 0, fixed = 0;

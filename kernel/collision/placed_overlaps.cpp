@@ -62,8 +62,8 @@ std::vector<PlacedOverlap> find_placed_overlaps(const std::vector<PieceType>& ty
   std::map<int, Shape> shapes;
   std::vector<PosedPiece> pieces;
   for (std::size_t i = 0; i < placed.size(); ++i) {
-    const int type = placed[i].type;
-    if (type >= int(types.size()) || types[std::size_t(type)].surface) continue;
+    const int type = placed[i].kind.index;
+    if (placed[i].kind.is_assembly || types[std::size_t(type)].surface) continue;
     const auto [shape, is_new] = shapes.try_emplace(type);
     if (is_new) shape->second = compile_shape(types[std::size_t(type)], types[std::size_t(type)].name);
     pieces.push_back(pose(int(i), placed[i], shape->second));

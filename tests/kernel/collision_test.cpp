@@ -206,7 +206,7 @@ TEST(PlacedOverlaps, AreFoundWithTheirDepth) {
   const std::vector<PieceType> types{testing::box_type("slab", 4, 4, 0.2), testing::box_type("box", 1, 1, 1)};
   const auto place = [](int type, const Vec3& at, bool fixed) {
     Placement placement;
-    placement.type = type, placement.fixed = fixed;
+    placement.kind = type, placement.fixed = fixed;
     placement.world_from_body.translation = at;
     return placement;
   };

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "app/assets/asset_loading.h"
+#include "app/assets/asset_materials.h"
 #include "app/assets/building_assets.h"
-#include "app/assets/material_variant.h"
 #include "app/assets/placed_box.h"
 #include "kernel/base/system/disk_cache.h"
 #include "kernel/base/system/file_sandbox.h"

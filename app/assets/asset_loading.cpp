@@ -7,10 +7,9 @@
 #include <stdexcept>
 
 #include "app/assets/assemblies.h"
-#include "app/assets/decompose_cache.h"
-#include "app/assets/material_variant.h"
+#include "app/assets/asset_materials.h"
+#include "app/assets/convex_parts.h"
 #include "app/assets/placed_box.h"
-#include "app/assets/surface_choice.h"
 #include "app/assets/terrain.h"
 #include "io/mesh/mesh_file.h"
 #include "io/robot/urdf_reader.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/assets/surface_choice.h"
+#include "app/assets/asset_materials.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/mesh_edges.h"
 #include "kernel/base/system/file_sandbox.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/hash.h"
-#include "scripting/trajectory/sample_path.h"
+#include "scripting/trajectory/trajectory.h"
 #include "scripting/values/value.h"
 
 namespace rubble {

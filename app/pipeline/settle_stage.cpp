@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "app/control/robot_control.h"
-#include "app/fines/lay_fines.h"
+#include "app/fines/pile_fines.h"
 #include "app/pipeline/stages.h"
 #include "app/provenance/earlier_files.h"
 #include "app/scene/build_scene.h"
@@ -12,10 +12,10 @@
 #include "app/simulators/build_sim_scene.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
-#include "app/surroundings/lay_surroundings.h"
+#include "app/surroundings/pile_surroundings.h"
 #include "app/victims/place_victims.h"
 #include "io/base/atomic_file.h"
-#include "io/mesh/track_glb.h"
+#include "io/mesh/mesh_writers.h"
 #include "io/scenes/pile_export.h"
 #include "io/state/checkpoint_file.h"
 #include "io/state/pile_state_file.h"

@@ -5,8 +5,8 @@
 
 #include "app/assets/building_assets.h"
 #include "app/assets/terrain.h"
-#include "app/fines/seen_fines.h"
-#include "app/surroundings/seen_surroundings.h"
+#include "app/fines/pile_fines.h"
+#include "app/surroundings/pile_surroundings.h"
 #include "kernel/base/portable_math.h"
 #include "render/materials/paint_layers.h"
 #include "render/materials/surface_appearance.h"

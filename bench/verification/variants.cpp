@@ -6,7 +6,6 @@
 
 #include "app/assets/asset_library.h"
 #include "app/measures/metrics.h"
-#include "app/measures/void_metrics.h"
 #include "app/planning/pile_survey.h"
 #include "app/scene/build_scene.h"
 #include "bench/process_times.h"

@@ -4,7 +4,7 @@
 
 #include "kernel/base/inertia.h"
 #include "kernel/settling/collapse_impl.h"
-#include "kernel/structure/remaining_bars.h"
+#include "kernel/structure/failure.h"
 #include "kernel/world/world_structures.h"
 
 namespace rubble {

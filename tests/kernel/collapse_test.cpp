@@ -10,7 +10,7 @@
 #include "kernel/settling/collapse.h"
 #include "kernel/settling/settle.h"
 #include "kernel/structure/building.h"
-#include "kernel/structure/standing.h"
+#include "kernel/structure/failure.h"
 
 namespace rubble {
 namespace collapse_test {

@@ -180,8 +180,13 @@ bool ContactSolver::note_touches() {
 
 void ContactSolver::pack() {
   if (note_touches()) return;
+  colours_.begin(moving_.size());
+  for (std::size_t i = 0; i < planned_.size(); ++i) colours_.add(std::int32_t(i), planned_[i].a, planned_[i].b);
   plan_.begin(domain_count_, domains_);
-  for (const Touch& touch : planned_) plan_.add(touch.contact, touch.a, touch.b, touch.rows);
+  for (std::int32_t i : colours_.finish()) {
+    const Touch& touch = planned_[i];
+    plan_.add(touch.contact, touch.a, touch.b, touch.rows);
+  }
   plan_.finish();
   batches_.resize(std::size_t(plan_.batch_count()));
   std::int32_t rows = 0;

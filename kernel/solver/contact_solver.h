@@ -13,6 +13,7 @@
 #include "kernel/base/parallel.h"
 #include "kernel/collision/body.h"
 #include "kernel/collision/contact.h"
+#include "kernel/solver/contact_colours.h"
 #include "kernel/solver/contact_rows.h"
 #include "kernel/solver/sweep_plan.h"
 #include "kernel/solver/sweep_progress.h"
@@ -124,6 +125,7 @@ class ContactSolver {
   std::vector<std::uint8_t> pushed_;          // by moving body
   std::vector<Touch> touches_, planned_;      // of the plan before, and of this one
   std::vector<std::uint8_t> planned_domains_; // by moving body
+  ContactColours colours_;
   SweepPlan plan_;
   int domain_count_ = 1;
   std::vector<float> places_, sorted_places_;  // by moving body

@@ -207,27 +207,55 @@ TEST(ContactColours, OrderByColourAndBottomUpWithin) {
   EXPECT_GE(plan_one_thread(touches, make_sequence(touches.size()), kBricks).chain, kHigh);
 }
 
-// What has more contacts than there are colours meets the rest one after the other, bottom up.
+// Stones side by side that lie on the same slabs: each slab has more contacts than there are colours, and the rest meet it
+// one after the other, bottom up.
 TEST(ContactColours, ABodyMayHaveMoreContactsThanThereAreColours) {
-  constexpr int kStones = 3 * ContactColours::kMostColours;
-  std::vector<Touch> touches;  // each on the slab, which has the last number
-  for (int i = 0; i < kStones; ++i) touches.push_back({i, kStones, 4});
+  constexpr int kSlabs = 8, kStones = 3 * ContactColours::kMostColours;
+  std::vector<Touch> touches;  // slabs have the last numbers
+  for (int i = 0; i < kStones; ++i) {
+    for (int slab = 0; slab < kSlabs; ++slab) touches.push_back({i, kStones + slab, 4});
+  }
   int colours = 0;
-  const std::vector<std::int32_t> order = order_by_colour(touches, kStones + 1, colours);
+  const std::vector<std::int32_t> order = order_by_colour(touches, kStones + kSlabs, colours);
   EXPECT_EQ(colours, ContactColours::kMostColours);
-  EXPECT_EQ(order, make_sequence(touches.size()));
-  EXPECT_EQ(plan_one_thread(touches, order, kStones + 1).chain, kStones);
+  std::vector<int> last(kStones + kSlabs, -1);  // of those that share the last colour, by slab
+  const std::vector<std::int32_t> rest(order.end() - kStones, order.end());
+  for (std::int32_t i : rest) {
+    EXPECT_LT(last[touches[i].b], i);
+    last[touches[i].b] = i;
+  }
+  EXPECT_EQ(std::set<std::int32_t>(order.begin(), order.end()).size(), touches.size());
 }
 
-TEST(ContactColours, WhatDoesNotMoveHasNoColours) {
+// What does not move joins no islands and has no colours.
+TEST(ContactColours, WhatDoesNotMoveJoinsNothing) {
   constexpr int kStones = 100;
   std::vector<Touch> touches;
   for (int i = 0; i < kStones; ++i) touches.push_back({i, kStones, 4});
   int colours = 0;
   EXPECT_EQ(order_by_colour(touches, kStones, colours), make_sequence(touches.size()));
-  EXPECT_EQ(colours, 1);
+  EXPECT_EQ(colours, 0);
   order_by_colour({}, 0, colours);
   EXPECT_EQ(colours, 0);
+}
+
+// A column of boxes beside a heap: the heap's contacts are coloured, those of the column stay bottom up and come first.
+TEST(ContactColours, TowersStayBottomUp) {
+  constexpr int kBoxes = 30;
+  std::vector<Touch> touches = make_touches();
+  for (Touch& t : touches) {
+    t.a += kBoxes;
+    t.b += kBoxes;  // what did not move does not move
+  }
+  const std::size_t heap = touches.size();
+  for (int i = 0; i < kBoxes; ++i) touches.push_back({i, i == 0 ? kBodies + kBoxes : i - 1, 4});
+  int colours = 0;
+  const std::vector<std::int32_t> order = order_by_colour(touches, kBodies + kBoxes, colours);
+  for (int i = 0; i < kBoxes; ++i) EXPECT_EQ(order[std::size_t(i)], std::int32_t(heap) + i);
+  EXPECT_FALSE(std::is_sorted(order.begin() + kBoxes, order.end()));
+  // One piece of the heap that leans on the column makes them one island.
+  touches.push_back({0, kBoxes, 4});
+  EXPECT_NE(order_by_colour(touches, kBodies + kBoxes, colours)[0], std::int32_t(heap));
 }
 
 TEST(SweepPlan, FiguresSayWhatThreadsGain) {

@@ -201,7 +201,7 @@ void ContactSolver::pack() {
 // Threads take part where there is enough to do for each, unless other programs kept them from it lately:
 // waiting for a thread that does not run costs more than doing its work. Contacts of trees are not in the
 // sweeps, so they do not count: where trees alone move, there is nothing to divide.
-int ContactSolver::choose_domain_count(const ThreadPool& pool) {
+int ContactSolver::choose_domain_count(ThreadPool& pool) {
   const int swept = int(heads_.size() - tree_order_.size());
   const int most = std::min({pool.threads(), swept / kLeastContacts, kMostDomains});
   return most < 2 || pool.crowded() ? 1 : most;

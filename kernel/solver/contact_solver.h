@@ -87,7 +87,7 @@ class ContactSolver {
   void find_supported();
   bool is_supported(std::int32_t number) const;  // something immovable is among what it touches
   void share_inertia(const std::vector<Body>& bodies);
-  int choose_domain_count(const ThreadPool& pool);
+  int choose_domain_count(ThreadPool& pool);
   void divide(const std::vector<Body>& bodies);
   void note_places(const std::vector<Body>& bodies);
   bool note_touches();  // true: the plan has the same
@@ -104,7 +104,7 @@ class ContactSolver {
   void solve_position_constraints(const SolverSettings& settings, ThreadPool& pool);
   void push(int batch);
   bool is_pushed(const ContactBatch& batch) const;
-  void cancel_correction_velocity(const SolverSettings& settings);
+  void cancel_correction_velocity(const SolverSettings& settings, ThreadPool& pool);
   void store(const ContactBatch& batch, std::vector<Contact>& contacts) const;
 
   std::vector<Head> heads_;

@@ -127,8 +127,8 @@ class ContactSolver::Sweeper {
     Stand& stand = stands_[std::size_t(domain)];
     bool any = false;
     while (!stand.done && advance(domain)) any = true;
-    progress_.give_back(domain);
     if (any && stand.done) left_.fetch_sub(1, std::memory_order_release);
+    progress_.give_back(domain);
     return any;
   }
 

@@ -15,6 +15,11 @@ constexpr float kReferencePreference = 1e-3F;
 // Points that will be closer than this count as touching; unit: m.
 constexpr float kTouchingDistance = 0.0015F;
 
+// A known point is preferred to one that is deeper by less than this. unit: m
+constexpr float kKnownDepth = 0.00002F;
+// A known point counts as farther away by this factor. unit: 1
+constexpr float kKnownReach = 1.2F;
+
 struct ClipPolygon {
   Vec3f points[Manifold::kMaxClipped];
   int count = 0;
@@ -110,18 +115,21 @@ void reduce(Manifold& m, const Vec3f& normal, int most) {
     }
     std::swap(m.points[slot], m.points[best]);
   };
+  const auto reach = [](const ManifoldPoint& p, float distance) { return p.known ? kKnownReach * distance : distance; };
+  move_best_to(0, [](const ManifoldPoint& p) { return (p.known ? kKnownDepth : 0) - p.predicted; });
   const Vec3f p0 = m.points[0].position;
-  move_best_to(1, [&](const ManifoldPoint& p) {
-    const Vec3f d = p.position - p0;
-    return dot(d, d);
-  });
+  move_best_to(1, [&](const ManifoldPoint& p) { return reach(p, norm(p.position - p0)); });
   const Vec3f side = cross(m.points[1].position - p0, normal);
-  move_best_to(2, [&](const ManifoldPoint& p) { return std::abs(dot(side, p.position - p0)); });
+  move_best_to(2, [&](const ManifoldPoint& p) { return reach(p, std::abs(dot(side, p.position - p0))); });
   // On the other side of the first edge than the third point.
   const float sign = dot(side, m.points[2].position - p0) > 0 ? -1.0F : 1.0F;
-  move_best_to(3, [&](const ManifoldPoint& p) { return sign * dot(side, p.position - p0); });
+  move_best_to(3, [&](const ManifoldPoint& p) { return reach(p, sign * dot(side, p.position - p0)); });
   for (int slot = 4; slot < most; ++slot) {
-    move_best_to(slot, [](const ManifoldPoint& p) { return -p.predicted; });
+    move_best_to(slot, [&](const ManifoldPoint& p) {
+      float nearest = 1e30F;
+      for (int i = 0; i < slot; ++i) nearest = std::min(nearest, norm(p.position - m.points[i].position));
+      return reach(p, nearest);
+    });
   }
   m.count = most;
 }

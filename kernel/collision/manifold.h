@@ -12,6 +12,7 @@ struct ManifoldPoint {
   float separation = 0;  // along the normal
   float predicted = 0;   // at the end of the step, if nothing stops it
   int retained = -1;     // the number that it had in the contact before the search; -1: found anew
+  bool known = false;    // the contact had it before the search; see mark_known() in narrow_phase.cpp
 };
 
 struct Manifold {
@@ -25,8 +26,9 @@ struct Manifold {
 void clip_faces(const PosedPart& a, const PosedPart& b, const Vec3f& offset, const Vec3f& normal,
                 float margin, Manifold& manifold);
 
-// Keeps the `most` (at least 4) deepest predicted points. When more than that touch: the deepest
-// one, three that span the largest area with it, then by depth.
+// Keeps the `most` (at least 4) deepest predicted points. When more than that touch: the deepest one, three that span
+// the largest area with it, then those farthest from the others. Known points are preferred to others that are about as
+// good: impulses and the centre of friction belong to points, and a round piece that spins would lose them in each step.
 void reduce(Manifold& manifold, const Vec3f& normal, int most);
 
 }  // namespace rubble

@@ -14,6 +14,8 @@ namespace {
 
 // Points of two steps count as the same point if they are closer than this; unit: m.
 constexpr float kMatchDistance = 0.01F;
+// Of many points those are chosen again that are within this of where they were; unit: m.
+constexpr float kKnownDistance = 0.002F;
 // Impulses are kept for the next step only if the normal has turned by less than 25 degrees.
 constexpr float kKeepCosine = 0.906F;
 // To find their axis, overlapping parts are shifted apart along the last normal by this, and by 4 times this;
@@ -219,11 +221,27 @@ void make_points(Contact& contact, const PosedBody& a, const PosedBody& b, const
     contact.has_normal = true;
     return clear_points(contact);
   }
+  mark_known(contact, a, &b, offset, m);
   reduce(m, axis.normal, Contact::kMaxPoints);
   store(contact, m, axis.normal, a, &b, offset);
 }
 
 }  // namespace
+
+// A corner stays in one of the two frames when the pieces slide.
+void mark_known(const Contact& contact, const PosedBody& a, const PosedBody* b, const Vec3f& offset, Manifold& m) {
+  if (m.count <= Contact::kMaxPoints) return;
+  const Mat3f a_from_world = a.part.rotation->transposed();
+  const Mat3f b_from_world = b != nullptr ? b->part.rotation->transposed() : Mat3f::identity();
+  for (int i = 0; i < m.count; ++i) {
+    const Vec3f local_a = a_from_world * m.points[i].position, local_b = b_from_world * (m.points[i].position - offset);
+    const ContactPoint* end = contact.points.begin() + contact.count;
+    m.points[i].known = std::any_of(contact.points.begin(), end, [&](const ContactPoint& q) {
+      const Vec3f da = q.local_a - local_a, db = q.local_b - local_b;
+      return std::min(dot(da, da), dot(db, db)) < kKnownDistance * kKnownDistance;
+    });
+  }
+}
 
 float motion_margin(const Vec3f& relative, float turning, const NarrowSettings& settings) {
   return settings.margin + settings.step * (norm(relative) + turning);
@@ -298,6 +316,7 @@ void update_ground_contact(Contact& contact, const PosedBody& a, float margin,
   Manifold& m = begin_manifold();
   keep_some(found, m);
   if (contact.rolls_a) carry_below_axis(m, normal, a.angular, {});
+  mark_known(contact, a, nullptr, Vec3f(-a.centre), m);
   reduce(m, normal, Contact::kMaxPoints);
   store_points(contact, m, normal, a);
 }

@@ -27,8 +27,8 @@ void clip_faces(const PosedPart& a, const PosedPart& b, const Vec3f& offset, con
                 float margin, Manifold& manifold);
 
 // Keeps the `most` (at least 4) deepest predicted points. When more than that touch: the deepest one, three that span
-// the largest area with it, then those farthest from the others. Known points are preferred to others that are about as
-// good: impulses and the centre of friction belong to points, and a round piece that spins would lose them in each step.
+// the largest area with it, then by depth. On a level face instead those farthest from the others, and known points are
+// preferred: impulses and the centre of friction belong to points, and a disc that spins would lose them in each step.
 void reduce(Manifold& manifold, const Vec3f& normal, int most);
 
 }  // namespace rubble

@@ -95,6 +95,10 @@ inline float mean_radius_share(int points) {
   return kShares[points < 6 ? points : 6];
 }
 
+// Sweeps over a new contact's points that find how it will be loaded, there and back twice: a flat box then slides
+// without turning, wherever its centre of mass is. unit: 1
+inline constexpr int kLoadSweeps = 4;
+
 // Slip of a patch over the impulse that it leaves; unit: 1/kg.
 template <typename T>
 struct Slip {

@@ -260,7 +260,7 @@ void TreeContacts::begin_substep(PaddedMotion* speeds, bool first, double weight
   for (std::int32_t index : sequence_) {
     Item& item = items_[std::size_t(index)];
     if (!first) note_total(item), clamp_accumulated_impulses(item, weight);
-    if (item.kind == Kind::contact) place_friction(item);
+    if (item.kind == Kind::contact && (first || item.driven)) place_friction(item);
     start(item, speeds);
   }
   for (std::int32_t tree : trees_.trees) motion(tree).add_forces();

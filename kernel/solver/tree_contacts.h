@@ -144,6 +144,8 @@ class TreeContacts {
   template <int sides>
   void solve_item(Item& item, double per_substep, const View& moved, View& view);
   template <int sides>
+  double find_first_loads(const Item& item, double* loads) const;
+  template <int sides>
   void place_friction_of(Item& item);
   void solve_one(Item& item, double per_substep, const PaddedMotion* moved, PaddedMotion* speeds);
   void solve_loop(Item& item, View& view);

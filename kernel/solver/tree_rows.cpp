@@ -199,15 +199,36 @@ void TreeContacts::place_friction(Item& item) {
   }
 }
 
+// As find_first_loads() of rows/contact_prepare.h.
+template <int sides>
+double TreeContacts::find_first_loads(const Item& item, double* loads) const {
+  const NormalRow* rows = &rows_[item.first_row];
+  double sum = 0;
+  for (int i = 0; i < item.rows; ++i) loads[i] = 0;
+  for (int sweep = 0; sweep < contact_law::kLoadSweeps; ++sweep) {
+    for (int k = 0; k < item.rows; ++k) {
+      const int i = sweep % 2 == 0 ? k : item.rows - 1 - k;
+      double speed = -1;
+      for (int j = 0; j < item.rows; ++j) speed += rows[i].row.couple<sides>(rows[j].row) * loads[j];
+      const double next = std::max(0.0, loads[i] - rows[i].row.mass * speed);
+      sum += next - loads[i];
+      loads[i] = next;
+    }
+  }
+  return sum;
+}
+
 template <int sides>
 void TreeContacts::place_friction_of(Item& item) {
-  const auto shares =
-      contact_law::find_centre_shares<double>(sum_impulses(item), double(item.rows));
   const NormalRow* rows = &rows_[item.first_row];
+  double loads[Contact::kMaxPoints], sum = sum_impulses(item);
+  for (int i = 0; i < item.rows; ++i) loads[i] = rows[i].row.impulse;
+  if (sum <= 0 && !item.driven) sum = find_first_loads<sides>(item, loads);
+  const auto shares = contact_law::find_centre_shares<double>(sum, double(item.rows));
   Vec3 centre_a, centre_b;
   double share[Contact::kMaxPoints];
   for (int i = 0; i < item.rows; ++i) {
-    share[i] = shares.each + shares.per_impulse * rows[i].row.impulse;
+    share[i] = shares.each + shares.per_impulse * loads[i];
     centre_a += rows[i].from_a * share[i];
     if (sides == 2) centre_b += rows[i].from_b * share[i];
   }

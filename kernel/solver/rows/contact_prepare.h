@@ -148,12 +148,10 @@ RUBBLE_INLINE void prepare_friction(const Side<P>& a, const Side<P>& b, const Pa
 template <typename P>
 RUBBLE_INLINE P find_first_loads(const ContactBatch& batch, int first, const P& inverse_mass, const NormalRow* rows,
                                  P* loads) {
-  // There and back twice: a flat box then slides without turning, wherever its centre of mass is. unit: 1
-  constexpr int kSweeps = 4;
   P sum{};
   Packet3<P> turn_a{}, turn_b{};
   for (int i = 0; i < batch.rows; ++i) loads[i] = P{};
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  for (int sweep = 0; sweep < contact_law::kLoadSweeps; ++sweep) {
     for (int k = 0; k < batch.rows; ++k) {
       const int i = sweep % 2 == 0 ? k : batch.rows - 1 - k;
       const ContactRow& row = rows[i].row;

@@ -317,7 +317,7 @@ std::vector<MixEntry> make_mix(const PileScenario& pile, const std::vector<Found
     for (const MixMaterial& m : item.materials) sum += m.weight;
     for (const MixMaterial& m : item.materials) {
       mix.push_back(entry);
-      mix.back().type = library.find(variant_name(item.asset, m.material));
+      mix.back().kind = library.find(variant_name(item.asset, m.material));
       mix.back().weight = item.weight * m.weight / sum;
     }
   }

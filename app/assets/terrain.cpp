@@ -116,7 +116,7 @@ MadeTerrain make_terrain(const TerrainScenario& spec, const std::vector<std::str
 
 Placement place_terrain(const TerrainScenario& spec, int type) {
   Placement placement;
-  placement.type = type;
+  placement.kind = type;
   placement.world_from_body.translation = spec.position;
   placement.fixed = true;
   return placement;

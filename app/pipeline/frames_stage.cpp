@@ -146,7 +146,7 @@ PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Se
   std::optional<Scene> felt_scene;
   if (felt && casts_rays(mission.scenario.sensors)) felt_scene = build_felt_scene(mission, seen);
   prepared.sensors = std::make_unique<SensorSuite>(
-      mission.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before}, felt_scene ? *felt_scene : scene,
+      mission.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before, leg.window.has_value()}, felt_scene ? *felt_scene : scene,
       *prepared.renderers, context.threads(), leg.window ? nothing_driven : seen.robots.readings);
   if (felt) prepared.depths = make_told_depths(mission, seen, context.threads());
   context.progress.finish("ready on " + gl.info().renderer);

@@ -17,7 +17,7 @@ namespace {
 Placement place(const PlacedItem& item, const AssetLibrary& assets) {
   constexpr double kRadians = portable::kPi / 180;
   Placement placement;
-  placement.type = assets.find(item);
+  placement.kind = assets.find(item);
   placement.scale = item.scale;
   placement.world_from_body = {
       portable::quat_from_rpy(item.rpy_deg.x * kRadians, item.rpy_deg.y * kRadians,

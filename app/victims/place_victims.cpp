@@ -46,7 +46,7 @@ std::vector<Figure> find_figures(const AssetLibrary& assets) {
   std::vector<Figure> figures;
   for (const auto& [name, head] : kHeads) {
     Figure figure;
-    figure.type = assets.find(name);
+    figure.type = assets.find(name).index;
     for (const Vec3f& p : assets.meshes[std::size_t(figure.type)]->levels.back().positions)
       figure.corners.push_back(Vec3(p));
     for (const Vec3& p : figure.corners) figure.lowest = std::min(figure.lowest, p.z);

@@ -15,10 +15,8 @@ constexpr float kReferencePreference = 1e-3F;
 // Points that will be closer than this count as touching; unit: m.
 constexpr float kTouchingDistance = 0.0015F;
 
-// Points that differ in depth by less than this lie on a level face, such as a disc's. unit: m
-constexpr float kLevel = 0.00001F;
-// Of a level face a known point counts as farther away by this factor. unit: 1
-constexpr float kKnownReach = 1.2F;
+// A point that is known counts as so much deeper, and as so much farther out, when points are chosen; unit: m, 1
+constexpr float kKnownDepth = 0.0005F, kKnownReach = 1.05F;
 
 struct ClipPolygon {
   Vec3f points[Manifold::kMaxClipped];
@@ -106,7 +104,6 @@ void reduce(Manifold& m, const Vec3f& normal, int most) {
     return;
   }
   m.count = touching;
-  const bool level = m.points[touching - 1].predicted - m.points[0].predicted < kLevel;
   const auto move_best_to = [&m](int slot, auto&& score) {
     int best = slot;
     float best_score = score(m.points[slot]);
@@ -116,10 +113,9 @@ void reduce(Manifold& m, const Vec3f& normal, int most) {
     }
     std::swap(m.points[slot], m.points[best]);
   };
-  const auto reach = [level](const ManifoldPoint& p, float distance) {
-    return level && p.known ? kKnownReach * distance : distance;
-  };
-  if (level) move_best_to(0, [](const ManifoldPoint& p) { return p.known ? 1.0F : 0.0F; });
+  const auto depth = [](const ManifoldPoint& p) { return (p.known ? kKnownDepth : 0) - p.predicted; };
+  const auto reach = [](const ManifoldPoint& p, float distance) { return p.known ? kKnownReach * distance : distance; };
+  move_best_to(0, depth);
   const Vec3f p0 = m.points[0].position;
   move_best_to(1, [&](const ManifoldPoint& p) { return reach(p, norm(p.position - p0)); });
   const Vec3f side = cross(m.points[1].position - p0, normal);
@@ -127,14 +123,7 @@ void reduce(Manifold& m, const Vec3f& normal, int most) {
   // On the other side of the first edge than the third point.
   const float sign = dot(side, m.points[2].position - p0) > 0 ? -1.0F : 1.0F;
   move_best_to(3, [&](const ManifoldPoint& p) { return reach(p, sign * dot(side, p.position - p0)); });
-  for (int slot = 4; slot < most; ++slot) {
-    move_best_to(slot, [&](const ManifoldPoint& p) {
-      if (!level) return -p.predicted;
-      float nearest = 1e30F;
-      for (int i = 0; i < slot; ++i) nearest = std::min(nearest, norm(p.position - m.points[i].position));
-      return reach(p, nearest);
-    });
-  }
+  for (int slot = 4; slot < most; ++slot) move_best_to(slot, depth);
   m.count = most;
 }
 

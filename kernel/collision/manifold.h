@@ -12,7 +12,7 @@ struct ManifoldPoint {
   float separation = 0;  // along the normal
   float predicted = 0;   // at the end of the step, if nothing stops it
   int retained = -1;     // the number that it had in the contact before the search; -1: found anew
-  bool known = false;    // the contact had it before the search; see mark_known() in narrow_phase.cpp
+  bool known = false;    // whether the contact had it, or one near it, in the step before; see reduce()
 };
 
 struct Manifold {
@@ -26,9 +26,9 @@ struct Manifold {
 void clip_faces(const PosedPart& a, const PosedPart& b, const Vec3f& offset, const Vec3f& normal,
                 float margin, Manifold& manifold);
 
-// Keeps the `most` (at least 4) deepest predicted points. When more than that touch: the deepest one, three that span
-// the largest area with it, then by depth. On a level face instead those farthest from the others, and known points are
-// preferred: impulses and the centre of friction belong to points, and a disc that spins would lose them in each step.
+// Keeps the `most` (at least 4) deepest predicted points. When more than that touch: the deepest
+// one, three that span the largest area with it, then by depth. Points that are known are preferred to others about as
+// good: a choice that changed from step to step would drop the impulses of points that carry, and stacks would shake.
 void reduce(Manifold& manifold, const Vec3f& normal, int most);
 
 }  // namespace rubble

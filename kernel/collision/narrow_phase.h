@@ -29,11 +29,8 @@ float motion_margin(const Vec3f& relative, float turning, const NarrowSettings& 
 void clear_points(Contact& contact);
 
 struct Manifold;
-// Marks which of many points the contact has already; for reduce(). b: none for what does not move.
-void mark_known(const Contact& contact, const PosedBody& a, const PosedBody* b, const Vec3f& offset, Manifold& m);
 // Writes points against something immovable into the contact; those found again keep their impulses.
-void store_points(Contact& contact, const Manifold& manifold, const Vec3f& normal,
-                  const PosedBody& a);
+void store_points(Contact& contact, Manifold& manifold, const Vec3f& normal, const PosedBody& a);
 
 // Finds normal and points anew, and carries over the impulses of points found again. No points:
 // the parts are farther apart than they can come in this step; then returns a distance that they

@@ -24,7 +24,7 @@ Collapse::Impl::Impl(World& w, const Structure& s, int first_type, const Collaps
   std::vector<NewPiece> pieces;
   for (const StructurePiece& piece : s.pieces) {
     NewPiece p;
-    p.placement.type = first_type + piece.type;
+    p.placement.kind = first_type + piece.type;
     p.placement.world_from_body.translation = piece.position;
     p.placement.fixed = true;
     p.layer = -1;

@@ -64,7 +64,7 @@ struct Start {
 };
 constexpr Start kStarts[] = {{1, 0}, {1, 1}, {0.05, 6}, {0.6, 6}, {2, 6}, {5, 6}};
 
-void expect_way(const std::vector<PieceType>& types, const std::vector<AssemblyType>& assemblies, int type,
+void expect_way(const std::vector<PieceType>& types, const std::vector<AssemblyType>& assemblies, PieceKind kind,
                 const Quat& rotation, const Patch& patch, double share) {
   for (const double rate : {60.0, 240.0}) {
     for (const Start& start : kStarts) {
@@ -73,7 +73,7 @@ void expect_way(const std::vector<PieceType>& types, const std::vector<AssemblyT
       options.threads = 1;
       World world(types, options, assemblies);
       const Vec3 middle{0, 0, kThickness / 2 + 0.001};
-      world.add({at(type, middle, rotation)});
+      world.add({at(kind, middle, rotation)});
       const Vec3 before = world.piece(0).world_from_body.translation, spin{0, 0, start.spin};
       world.set_velocity(0, Vec3{start.speed, 0, 0} + cross(spin, before - middle), spin);
       Way way;
@@ -120,7 +120,8 @@ TEST(ClosedFormFriction, APlateOfATreeSlidesAndSpins) {
   plate.joints[0].kind = JointKind::weld;
   PieceType block = box_type("block", 0.04, 0.04, 0.04);
   block.density = 100;
-  expect_way({with_friction(box_type("plate", 1, 1, kThickness)), block}, {plate}, 2, {}, make_patch(1, 1, 0), 0.03);
+  expect_way({with_friction(box_type("plate", 1, 1, kThickness)), block}, {plate},
+             PieceKind::assembly(0), {}, make_patch(1, 1, 0), 0.03);
 }
 
 // What lands flat while it slides gets the coefficient times the normal impulse, at any speed and step.

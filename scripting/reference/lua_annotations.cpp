@@ -84,6 +84,7 @@ std::string first_parameter(const std::string& function) {
     return "---@param f fun(x: number, y: number): number\n";
   if (function == "rubble.trajectory.along")
     return "---@param f fun(t: number): rubble.Vector|table, rubble.Vector?\n";
+  if (function == "rubble.trajectory.join") return "---@param f table[]\n";
   return "";
 }
 

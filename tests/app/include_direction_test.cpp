@@ -233,7 +233,7 @@ const std::map<std::string, Prefixes> kDoors{
     {"assimp/", {"io/mesh_formats/assimp_reader.cpp"}},
     {"draco/", {"io/mesh_formats/draco_decoder.cpp"}},
     {"expat.h", {"io/base/xml_document.cpp"}},
-    {"pybind11/", {"python/"}},
+    {"nanobind/", {"python/"}},
     {"opencv2/", {"bench/images/picture_file.cpp", "io/image/", "io/recording/contact_sheet.cpp", "io/voids/void_picture.cpp"}},
     {"mrpt/", {"io/mrpt/", "io/playback/rawlog_pictures.cpp"}},
     {"rosbag/", {"io/ros/"}},

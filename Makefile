@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo pictures film test check test-nightly test-asan test-tsan test-files fuzz mutants faults pairs determinism platforms format clean
+.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo pictures film test release-check check test-nightly test-asan test-tsan test-files fuzz mutants faults pairs determinism platforms format clean
 
 PROGRAM := build/release/rubble
 # Tests have one thread each, so as many run at once as there are processors.
@@ -22,6 +22,7 @@ help:
 	@echo "make archive    make a self-extracting archive for other distributions: build/package/rubble-*.run"
 	@echo "make site       make a site of the documents: build/site/index.html"
 	@echo "make live       build everything, with publishing over ROS 1 and ROS 2 (docs/how_to/live.md)"
+	@echo "make release-check  fail where a table of the documents was measured from older sources"
 	@echo "make test-nightly  run the tests that take long, or need a cluster of one node"
 	@echo "make test-asan  run the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
 	@echo "make test-tsan  run the suite under ThreadSanitizer"
@@ -113,6 +114,11 @@ film: build
 test: all
 	rm -rf build/release/cache
 	$(CTEST) --preset release --label-exclude nightly
+	@tools/stale_tables.py
+
+# What a release needs besides the tests.
+release-check:
+	tools/stale_tables.py --strict
 
 # The tests of one folder of tests/, or some suites of it: T=kernel, T=app.Batch (a regular expression of their names).
 T := kernel

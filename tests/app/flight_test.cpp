@@ -162,6 +162,32 @@ TEST(Avoid, FindsTheWayThroughTwoWindows) {
   }
 }
 
+// Half a circle around a block, which a column stands in, and then through a place that the block hides.
+TEST(Avoid, AnOrbitGoesAroundWhatStandsInItAndOnToWaypoints) {
+  const SettledMission m = settle_text(
+      "local orbit = rubble.trajectory.orbit { centre = { 0, 0, 0.5 }, radius_m = 3, height = 1, turns = 0.5, speed = 1 }\n"
+      "return rubble.mission { pile = { layers = 0, placed = { { box = { 1, 1, 2 }, position = { 0, 0, 1 } }, "
+      "{ box = { 0.3, 0.3, 3 }, position = { 0, -3, 1.5 } } } }, trajectory = rubble.trajectory.join({ orbit, "
+      "{ { position = { -2, 2, 1 } } } }, { plan = 'avoid', radius = 0.2, speed = 0.5, rate_hz = 10 }) }");
+  const FlightPlan flight = plan(m);
+  const PileQueries queries = m.queries();
+  double nearest_to_column = 1e9;
+  for (const CameraPose& pose : flight.poses) {
+    const Vec3 p = pose.world_from_camera.translation;
+    EXPECT_GE(queries.clearance(p), 0.199);
+    nearest_to_column = std::min(nearest_to_column, std::hypot(p.x, p.y + 3));
+  }
+  EXPECT_LT(nearest_to_column, 0.7) << "it goes around it closely";
+  EXPECT_NEAR(distance(flight.poses.front().world_from_camera.translation, {-3, 0, 1.5}), 0, 1e-6);
+  EXPECT_NEAR(distance(flight.poses.back().world_from_camera.translation, {-2, 2, 1}), 0, 0.06);
+  // On the circle, and around the column, the view stays on its centre, but for the roundings of the path.
+  for (const CameraPose& pose : flight.poses) {
+    const Vec3 p = pose.world_from_camera.translation;
+    if (p.x > 2) break;
+    EXPECT_GT(dot(pose.world_from_camera.rotation.rotate({1, 0, 0}), normalized(Vec3{0, 0, 0.5} - p)), 0.99);
+  }
+}
+
 TEST(Avoid, ReportsTheWidestGapWhereThereIsNoWay) {
   const SettledMission m = scene(tunnel(0.9, 0.5),
                                  "plan = 'avoid', radius = 0.35, waypoints = { "

@@ -23,7 +23,7 @@ FlightPlan resolve(const ResolvedMission& mission, PileSurvey& survey, RunFolder
     return resolve_flight(mission.scenario, survey, [&](double done, const std::string& what) {
       throw_if_stopped(folder.path());
       context.progress.update(done, what);
-    });
+    }, DiskCache(DiskCache::usual_folder()));
   });
   if (!quick) context.progress.finish(plan.summary.empty() ? "planned" : plan.summary);
   if (!plan.json.empty()) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/settled_mission.h"
@@ -100,6 +101,42 @@ int count_reports(const std::string& goal) {
 TEST(Avoid, MakesTheFreeSpaceOnlyWhereNoStraightLegWillDo) {
   EXPECT_EQ(count_reports("{ -3, 4, 1 }"), 0);
   EXPECT_GT(count_reports("{ 3, 0, 1 }"), 0);
+}
+
+// A way that is in the cache is not searched again, and is the same to the bit, whatever the frame rate.
+TEST(FlightCache, KeepsAWayUnderAllThatItFollowsFrom) {
+  const std::string folder = ::testing::TempDir() + "flight_cache";
+  std::filesystem::remove_all(folder);
+  const DiskCache cache(folder);
+  int reports = 0;
+  const auto plan_kept = [&](const SettledMission& m) {
+    reports = 0;
+    PileSurvey survey(m.assets, m.state, 1);
+    return resolve_flight(m.mission.scenario, survey, [&](double, const std::string&) { ++reports; }, cache);
+  };
+  const auto way = [](const std::string& goal, const std::string& size, const std::string& more) {
+    return scene("{ box = { 1, 1, " + size + " }, position = { 0, 0, 1 } }",
+                 "plan = 'avoid', radius = 0.3, " + more + "waypoints = { { position = { -3, 0, 1 } }, { position = " + goal + " } }");
+  };
+  const SettledMission m = way("{ 3, 0, 1 }", "2", "");
+  const FlightPlan first = plan_kept(m);
+  EXPECT_GT(reports, 0);
+  const FlightPlan again = plan_kept(m);
+  EXPECT_EQ(reports, 0);
+  EXPECT_EQ(again.json, first.json);
+  EXPECT_EQ(again.summary, first.summary);
+  ASSERT_EQ(again.poses.size(), first.poses.size());
+  for (std::size_t i = 0; i < first.poses.size(); ++i) {
+    EXPECT_EQ(again.poses[i].stamp_ns, first.poses[i].stamp_ns);
+    EXPECT_TRUE(again.poses[i].world_from_camera.translation == first.poses[i].world_from_camera.translation) << i;
+    EXPECT_TRUE(again.poses[i].world_from_camera.rotation == first.poses[i].world_from_camera.rotation) << i;
+  }
+  plan_kept(way("{ 3, 0, 1 }", "2", "smoothing = 0.05, max_speed = 0.3, "));  // come after the search
+  EXPECT_EQ(reports, 0);
+  plan_kept(way("{ 3, 0.5, 1 }", "2", ""));
+  EXPECT_GT(reports, 0);
+  plan_kept(way("{ 3, 0, 1 }", "1.9", ""));  // another pile
+  EXPECT_GT(reports, 0);
 }
 
 TEST(Avoid, FindsTheWayThroughTwoWindows) {

@@ -1,26 +1,10 @@
-#!/usr/bin/python3
-"""RGB-D odometry and mapping from a recorded ROS bag by programs that nobody here wrote, fed as by a robot:
-odometry by OpenCV's rgbd module (contrib) and by Open3D, SLAM in the plane by MRPT from the rawlog beside the
-bag, and the frames fused along the estimated track into a truncated signed distance volume by Open3D. (OpenCV's
-KinFu is there, but Debian leaves it out as patented.)
-
-usage: slam.py BAG OUT METHOD    METHOD: rgbd, rgbd_icp, icp (OpenCV), open3d, mrpt_icp
-
-Writes OUT/METHOD.txt, the estimated trajectory in TUM format from the true first pose on; OUT/METHOD.ply, the
-fused mesh in the world; OUT/METHOD.json: the time taken, and how many frames were lost (an odometry that fails
-keeps its last motion).
+"""RGB-D odometry from a recorded ROS bag by programs that nobody here wrote, fed as by a robot: OpenCV's rgbd module
+(contrib) and Open3D. An odometry that fails keeps its last motion. (OpenCV's KinFu is there, but Debian leaves it out as
+patented.)
 """
-import json
-import pathlib
-import sys
-import time
-
 import cv2
 import numpy as np
 import open3d as o3d
-import rosbag
-
-import mrpt
 
 NEAR, FAR = 0.2, 8.0  # of the depth that is used; unit: m
 BODY_FROM_OPTICAL = np.eye(4)  # the bag's poses are of the camera body (REP 103)
@@ -72,17 +56,6 @@ def pose_matrix(pose):
     return m @ BODY_FROM_OPTICAL
 
 
-def leave_plane(plane_poses, start):
-    """world_from_optical of poses (x, y, yaw) of the body, in the plane in which it begins at `start`."""
-    poses = []
-    for x, y, yaw in plane_poses:
-        moved = np.eye(4)
-        moved[:2, :2] = [[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]]
-        moved[:2, 3] = x, y
-        poses.append(start @ np.linalg.inv(BODY_FROM_OPTICAL) @ moved @ BODY_FROM_OPTICAL)
-    return poses
-
-
 def quaternion(r):
     """x y z w of a rotation matrix."""
     vector, _ = cv2.Rodrigues(r)
@@ -118,12 +91,6 @@ def run_odometry(method, frames, k, start):
     return poses, lost
 
 
-def rgbd_image(rgb, depth):
-    return o3d.geometry.RGBDImage.create_from_color_and_depth(
-        o3d.geometry.Image(np.ascontiguousarray(rgb)), o3d.geometry.Image(np.nan_to_num(depth)),
-        depth_scale=1.0, depth_trunc=FAR, convert_rgb_to_intensity=False)
-
-
 def camera_of(frames, k):
     rows, columns = frames[0][2].shape
     return o3d.camera.PinholeCameraIntrinsic(columns, rows, k[0, 0], k[1, 1], k[0, 2], k[1, 2])
@@ -148,43 +115,8 @@ def run_open3d(frames, k, start):
     return poses, lost
 
 
-def fuse(frames, k, poses):
-    """Every third frame in a volume of 2 cm voxels; poses: world_from_optical."""
-    volume = o3d.pipelines.integration.ScalableTSDFVolume(
-        voxel_length=0.02, sdf_trunc=0.06, color_type=o3d.pipelines.integration.TSDFVolumeColorType.RGB8)
-    for (_, rgb, depth), pose in list(zip(frames, poses))[::3]:
-        volume.integrate(rgbd_image(rgb, depth), camera_of(frames, k), np.linalg.inv(pose))
-    return volume
-
-
 def tum_lines(frames, poses):
     """The trajectory as TUM writes it."""
     return "".join("%d.%09d %s\n" % (stamp // 10**9, stamp % 10**9, " ".join(
         "%.9g" % v for v in [*pose[:3, 3], *quaternion(pose[:3, :3])]))
         for (stamp, _, _), pose in zip(frames, poses))
-
-
-def main():
-    bag_path, out, method = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
-    out.mkdir(parents=True, exist_ok=True)
-    with rosbag.Bag(bag_path) as bag:
-        frames, k, truth = read(bag)
-    start = truth[frames[0][0]]
-    begin = time.monotonic()
-    if method == "mrpt_icp":
-        rawlog = pathlib.Path(bag_path).with_suffix(".rawlog")
-        poses, lost = leave_plane(mrpt.follow(rawlog, out / "mrpt"), start), 0
-    elif method == "open3d":
-        poses, lost = run_open3d(frames, k, start)
-    else:
-        poses, lost = run_odometry(method, frames, k, start)
-    seconds = time.monotonic() - begin
-    mesh = fuse(frames, k, poses).extract_triangle_mesh()
-    o3d.io.write_triangle_mesh(str(out / (method + ".ply")), mesh)
-    (out / (method + ".txt")).write_text(tum_lines(frames, poses))
-    (out / (method + ".json")).write_text(json.dumps(
-        {"method": method, "frames": len(frames), "lost": lost, "wall_s": round(seconds, 2)}))
-
-
-if __name__ == "__main__":
-    main()

@@ -5,13 +5,11 @@
 #pragma once
 
 #include "app/sensors/camera_renderers.h"
-#include "render/gl/gl_context.h"
 #include "render/scene/scene.h"
 
 namespace rubble {
 
 struct LiveColoursOptions {
-  int gl_device = -1;           // see GlContextOptions
   int threads = 1;
   Renderer::Progress progress;  // of the light
 };
@@ -20,16 +18,16 @@ struct LiveColoursOptions {
 class LiveColours {
  public:
   // scene: shows everything where the history of the sensors has it. drawn: numbers of the cameras. Throws RunError as
-  // GlContext and Renderer do.
-  LiveColours(const Scene& scene, const std::vector<MountedCamera>& cameras, const std::vector<std::size_t>& drawn,
-              const LiveColoursOptions& options)
-      : gl_({options.gl_device, options.threads}),
-        renderers_(scene, cameras, drawn, gl_, {options.threads, options.progress, {}}) {}
+  // Renderer does.
+  LiveColours(std::unique_ptr<Device> device, const Scene& scene, const std::vector<MountedCamera>& cameras,
+              const std::vector<std::size_t>& drawn, const LiveColoursOptions& options)
+      : device_(std::move(device)),
+        renderers_(scene, cameras, drawn, *device_, {options.threads, options.progress, {}}) {}
 
   Renderer& renderer_of(std::size_t camera) { return renderers_.of(camera); }
 
  private:
-  GlContext gl_;
+  std::unique_ptr<Device> device_;
   CameraRenderers renderers_;
 };
 

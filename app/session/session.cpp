@@ -9,6 +9,7 @@
 #include "app/control/script_control.h"
 #include "app/sensors/camera_sensor.h"
 #include "app/session/live_colours.h"
+#include "app/support/drawing_device.h"
 #include "kernel/world/world_robots.h"
 
 namespace rubble {
@@ -119,8 +120,8 @@ void Session::make_sensors() {
   for (const std::size_t i : depths) sensors_.push_back({make_depth_sensor(parts, i), scenario_.cameras[i].ride});
   if (!colours.empty() && !colours_)
     colours_ = std::make_unique<LiveColours>(
-        scene, scenario_.cameras, colours,
-        LiveColoursOptions{context_.options.gl_device, context_.threads(), [this](double done) {
+        open_device(context_.options.gl_device, context_.threads()), scene, scenario_.cameras, colours,
+        LiveColoursOptions{context_.threads(), [this](double done) {
                              context_.progress.update(0, "light " + std::to_string(int(100 * done)) + " %");
                            }});
   for (const std::size_t i : colours)

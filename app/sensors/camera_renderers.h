@@ -19,7 +19,7 @@ struct CameraRendering {
 };
 
 // The scene, lit for these colours.
-std::unique_ptr<Renderer> prepare_renderer(const Scene& scene, const ColourSpec& colour, GlContext& gl,
+std::unique_ptr<Renderer> prepare_renderer(const Scene& scene, const ColourSpec& colour, Device& device,
                                            const CameraRendering& options);
 
 class CameraRenderers {

@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages program-packages build all package package-arm64 image archive wheel install site asset-maker live demo pictures film test check test-nightly test-asan test-tsan test-files fuzz mutants faults pairs determinism platforms format clean
+.PHONY: help packages program-packages build all package package-arm64 image archive wheel install site asset-maker live demo demonstration pictures film test release-check check test-nightly test-asan test-tsan test-files fuzz mutants faults pairs verification determinism platforms format clean
 
 PROGRAM := build/release/rubble
 # Tests have one thread each, so as many run at once as there are processors.
@@ -11,6 +11,7 @@ help:
 	@echo "make demo       install what is missing, build, and run scripts/demo.lua"
 	@echo "make test       install what is missing, build, and run the test suite"
 	@echo "make check T=kernel  build and run the tests of one part, or suites of it: T=app.Batch"
+	@echo "make demonstration  flights into a ruin, and what structure from motion makes of them; goes on where it stopped (docs/explanation/sfm.md)"
 	@echo "make pictures   draw the pictures of the documents anew, and docs/gallery.md; it goes on where it stopped"
 	@echo "make film       make the film of the demo: docs/pictures/demo.mp4"
 	@echo "make build      build the program and its assets only: $(PROGRAM)"
@@ -23,6 +24,7 @@ help:
 	@echo "make wheel      make Python wheels: build/package/rubble_sim-*.whl; PYTHONS=\"python3.11 python3.12\" (docs/reference/python.md)"
 	@echo "make site       make a site of the documents: build/site/index.html"
 	@echo "make live       build everything, with publishing over ROS 1 and ROS 2 (docs/how_to/live.md)"
+	@echo "make release-check  fail where a table of the documents was measured from older sources"
 	@echo "make test-nightly  run the tests that take long, or need a cluster of one node"
 	@echo "make test-asan  run the suite under AddressSanitizer and UndefinedBehaviorSanitizer"
 	@echo "make test-tsan  run the suite under ThreadSanitizer"
@@ -31,6 +33,7 @@ help:
 	@echo "make mutants    break the code on purpose, one fault at a time: which tests notice? (half an hour)"
 	@echo "make faults     interrupt a small run at many places, continue it, compare the bytes (an hour)"
 	@echo "make pairs      any two features of a mission together, judged by their data; goes on where it stopped (docs/development/pairs.md)"
+	@echo "make verification  piles, ruins and a robot at shorter steps and with more sweeps (docs/explanation/verification.md)"
 	@echo "make determinism  compare hashes of other compilers, levels and processors (half an hour)"
 	@echo "make platforms PLATFORM=debian13  demo and tests in a bare Debian 13; or windows, riscv64, arm64 (docs/development/platforms.md)"
 	@echo "make format     clang-format over the tree"
@@ -102,6 +105,10 @@ demo: build
 	@$(PROGRAM) view out/demo > /dev/null
 	@echo "Open the contact sheet out/demo/preview.png, and the page out/demo/view.html in a browser."
 
+# DEMONSTRATION_OPTIONS: see bench/demonstration/run, as in DEMONSTRATION_OPTIONS="--size small --hours 2 --seeds 1".
+demonstration: build
+	bench/demonstration/run --document $(DEMONSTRATION_OPTIONS)
+
 # All pictures of the documents but the film, and the tables that are drawn with them; hours. It goes on where it stopped.
 # PICTURES: some of the steps alone, as in PICTURES="demo drive"; tools/draw_pictures.py --list has their names.
 pictures: packages build/release/build.ninja
@@ -119,6 +126,11 @@ film: build
 test: all
 	rm -rf build/release/cache
 	$(CTEST) --preset release --label-exclude nightly
+	@tools/stale_tables.py
+
+# What a release needs besides the tests.
+release-check:
+	tools/stale_tables.py --strict
 
 # The tests of one folder of tests/, or some suites of it: T=kernel, T=app.Batch (a regular expression of their names).
 T := kernel
@@ -168,6 +180,13 @@ faults: build
 # PAIRS_OPTIONS: see tests/pairs/run_pairs.py.
 pairs: all
 	tests/pairs/run_pairs.py $(PROGRAM) build/pairs --python build/release/python --report docs/development/pairs.md $(PAIRS_OPTIONS)
+
+# Figures at shorter steps and with more sweeps (docs/explanation/verification.md): about an hour; goes on where it stopped.
+verification: build/release/build.ninja
+	@tools/install_packages.sh tools/packages-pictures.txt
+	cmake --build --preset release --target verification_bench
+	build/release/verification_bench --jobs 2 --out build/verification.jsonl
+	bench/verification/page.py build/verification.jsonl
 
 # Not part of any suite: it installs compilers and builds the kernel fifteen times.
 determinism: packages

@@ -14,6 +14,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
+import document_marks  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 DOCUMENT = ROOT / "docs/development/performance.md"
 DOCUMENTS = {"equilibrium": ROOT / "docs/explanation/equilibrium.md"}  # of sections that stand elsewhere
@@ -133,11 +136,7 @@ def main():
         parser.error("no section is named " + ", ".join(unknown))
     for name in args.sections or SECTIONS:
         body = SECTIONS[name](args.build)
-        document = DOCUMENTS.get(name, DOCUMENT)
-        text = document.read_text()
-        begin, end = "<!-- begin %s -->" % name, "<!-- end %s -->" % name
-        head, rest = text.split(begin)
-        document.write_text(head + begin + "\n" + body + "\n" + end + rest.split(end)[1])
+        document_marks.write_between_marks(DOCUMENTS.get(name, DOCUMENT), name, body + "\n")
 
 
 if __name__ == "__main__":

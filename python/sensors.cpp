@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "app/scene/build_scene.h"
+#include "app/support/drawing_device.h"
 #include "app/sensors/camera_renderers.h"
 #include "kernel/base/parallel.h"
 #include "python/arrays.h"
 #include "python/parts.h"
-#include "render/gl/gl_context.h"
 #include "render/rays/depth_rays.h"
 #include "render/renderer.h"
 
@@ -45,8 +45,8 @@ class FrameRenderer {
  public:
   FrameRenderer(SharedPile settled, int threads)
       : settled_(std::move(settled)),
-        gl_({-1, threads}),
-        renderer_(prepare_renderer(scene_of(*settled_), settled_->mission.scenario.cameras.front().camera.colour, gl_, {threads, {}, {}})) {}
+        device_(open_device(-1, threads)),
+        renderer_(prepare_renderer(scene_of(*settled_), settled_->mission.scenario.cameras.front().camera.colour, *device_, {threads, {}, {}})) {}
 
   nb::dict render(const DoubleArray& world_from_camera, int width, int height, double fov_deg, int number,
                   const std::array<double, 2>& shift) {
@@ -62,7 +62,7 @@ class FrameRenderer {
 
  private:
   SharedPile settled_;
-  GlContext gl_;
+  std::unique_ptr<Device> device_;
   std::unique_ptr<Renderer> renderer_;
 };
 

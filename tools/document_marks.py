@@ -3,6 +3,8 @@ import os
 import re
 import sys
 
+import stale_tables
+
 
 def split_at_marks(path, name):
     """The text up to the first mark with it, between the marks, and from the second mark on."""
@@ -18,9 +20,10 @@ def read_between_marks(path, name):
 
 
 def write_between_marks(path, name, text):
-    """Replaces what is between the marks; the text around them stays as it is."""
-    before, _, after = split_at_marks(path, name)
-    whole = before + text + after
+    """Replaces what is between the marks; the text around them stays as it is. Where a comment states what the table was
+    measured from (stale_tables.py), it states the working tree from now on."""
+    before, old, after = split_at_marks(path, name)
+    whole = before + stale_tables.stamp_again(old) + text + after
     with open(f"{path}.part", "w") as file:
         file.write(whole)
     os.replace(f"{path}.part", path)

@@ -67,8 +67,7 @@ def steps():
     yield "ruins", [
         "tools/draw_ruins.py --program {program} --out {work}/ruins " + COLLAPSE,
     ]
-    sfm = "bench/sfm/run --program {program} --out {work}/sfm"
-    yield "sfm", [sfm + " --quick --conditions all --seeds 1,2,3 --slam", sfm + " --seeds 1 --document"]
+    yield "demonstration", ["bench/demonstration/run --program {program} --document"]
 
 
 def run(commands, names):

@@ -50,10 +50,10 @@ def write_missions(folder):
 def write_table(root):
     golden = root / "scripts/rubble50/suite.golden.json"
     hashes = json.loads(golden.read_text())["runs"] if golden.exists() else {}
-    table = "| mission | structure | condition | carrier | state hash of the pile |\n|---|---|---|---|---|\n"
+    table = "|mission|structure|condition|carrier|state hash of the pile|\n|---|---|---|---|---|\n"
     for number, *parts in rows():
         found = hashes.get(name_of(number, *parts), {}).get("state_hash", "not run")
-        table += f"| {number} | {' | '.join(f'`{part}`' for part in parts)} | `{found}` |\n"
+        table += f"|{number}|{'|'.join(f'`{part}`' for part in parts)}|`{found}`|\n"
     page = root / "docs/explanation/rubble50.md"
     text = page.read_text()
     begin, end = text.index(BEGIN) + len(BEGIN), text.index(END)

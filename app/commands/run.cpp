@@ -1,5 +1,7 @@
 // `rubble run`: the whole pipeline, from a script to recordings and a manifest.
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
@@ -10,7 +12,11 @@ namespace {
 
 Action declare_run(CommandLine& line) {
   const auto request = std::make_shared<RunRequest>();
+  const auto also = std::make_shared<std::vector<std::string>>();
   add_mission_options(line, *request);
+  line.add("--also", *also,
+           "Another mission over the same pile, recorded afterwards. Each mission has the folder of its name in out/, or in --out")
+      .metavar("FILE");
   add_seed_option(line, *request);
   add_track_option(line, *request);
   add_output_options(line, *request);
@@ -18,7 +24,7 @@ Action declare_run(CommandLine& line) {
   add_checkpoint_option(line, request->options);
   add_preview_option(line, *request);
   add_live_options(line, request->options.live);
-  return [request] { return run_to_folder(*request, RunKind::run); };
+  return [request, also] { return also->empty() ? run_to_folder(*request, RunKind::run) : run_flights(*request, *also); };
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "app/drive/drive_leg.h"
 #include "app/drive/drive_link.h"
 #include "app/drive/drive_window.h"
-#include "app/drive/height_map.h"
+#include "app/drive/drive_world.h"
 #include "app/drive/overlay/overlay.h"
 #include "app/drive/overlay/void_survey.h"
 #include "io/image/drive_picture.h"
@@ -50,7 +50,6 @@ class DriveSession {
   std::string folder_;
   Controls controls_;
   DriveWindow window_;
-  GlContext context_;
   std::unique_ptr<DriveWorld> world_;
   std::unique_ptr<DrivenCamera> camera_;
   std::unique_ptr<DriveLink> link_;  // none unless asked for

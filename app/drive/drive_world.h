@@ -1,4 +1,4 @@
-// What is driven through: one seed's settled pile, ready to be asked and drawn.
+// What is driven through: one seed's settled pile, ready to be asked and drawn; also from above.
 #pragma once
 
 #include <functional>
@@ -9,9 +9,28 @@
 #include "app/drive/robots/robot_drive.h"
 #include "app/pipeline/stages.h"
 #include "app/planning/pile_survey.h"
+#include "io/image/image_file.h"
+#include "kernel/queries/queries.h"
 #include "render/renderer.h"
 
 namespace rubble {
+
+// A square of the world, north (Y) up in the picture.
+struct MapFrame {
+  Vec3 centre;      // unit: m; z is not used
+  double side = 1;  // unit: m
+  int pixels = 1;   // a side
+
+  // Column and row of a place, also outside.
+  double column(const Vec3& p) const;
+  double row(const Vec3& p) const;
+};
+
+// Around all pieces and `camera`, with a margin.
+MapFrame frame_map(const PileState& pile, const Vec3& camera, int pixels);
+
+// Heights as colours from dark (the ground) to light, shaded by their slope.
+RgbImage draw_height_map(const PileQueries& queries, const MapFrame& frame, int threads);
 
 struct DriveWorld {
   Scenario scenario;                   // of the camera's size that was asked for, adapted to driving
@@ -24,6 +43,7 @@ struct DriveWorld {
   DriveLimits limits;                  // the mission's speed limits, where it has any
   std::unique_ptr<PileSurvey> survey;  // of that pile
   std::unique_ptr<RobotDrive> robots;  // driven instead of the camera; none: it flies
+  std::unique_ptr<Device> device;      // that draws
   std::unique_ptr<Renderer> renderer;  // of the scene, lit
   int threads = 1;                     // at least 1
 
@@ -34,11 +54,9 @@ struct DriveWorld {
 // Asked now and then while that takes long; false: the person wants to leave.
 using GoOn = std::function<bool()>;
 
-// Loads the mission with that seed (none: its own) and settles its pile. The context must outlive
-// the world. Throws as `rubble run` does, Stopped when `go_on` was false, and InputError when the
-// camera's body has no room at the entry.
-std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
-                                             std::optional<std::uint64_t> seed, GlContext& context,
+// Loads the mission with that seed (none: its own) and settles its pile. Throws as `rubble run` does, Stopped when
+// `go_on` was false, and InputError when the camera's body has no room at the entry.
+std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request, std::optional<std::uint64_t> seed,
                                              const GoOn& go_on);
 
 }  // namespace rubble

@@ -1,7 +1,7 @@
 // The stages that ask where a settled pile has room: the measures of its voids, and the flight.
 #include <cstdio>
 
-#include "app/measures/void_metrics.h"
+#include "app/measures/metrics.h"
 #include "app/pipeline/stages.h"
 #include "app/planning/camera_inside.h"
 #include "app/planning/flight.h"
@@ -23,7 +23,7 @@ FlightPlan resolve(const ResolvedMission& mission, PileSurvey& survey, RunFolder
     return resolve_flight(mission.scenario, survey, [&](double done, const std::string& what) {
       throw_if_stopped(folder.path());
       context.progress.update(done, what);
-    });
+    }, DiskCache(DiskCache::usual_folder()));
   });
   if (!quick) context.progress.finish(plan.summary.empty() ? "planned" : plan.summary);
   if (!plan.json.empty()) {

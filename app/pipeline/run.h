@@ -16,6 +16,13 @@ std::string choose_output(const RunRequest& request);
 // moved.
 ExitCode run_to_folder(const RunRequest& request, RunKind kind);
 
+// Renders the mission in a new folder, with the pile of the finished run in the folder `from`.
+ExitCode render_to_folder(const std::string& from, const RunRequest& request);
+
+// Runs the mission, then renders the missions `also` over its pile, each in a folder of its script's name: in out/, or in
+// --out. Throws InputError before anything runs if one of them states another pile.
+ExitCode run_flights(const RunRequest& request, const std::vector<std::string>& also);
+
 // Results of the stages of a run.
 struct StageResults {
   PileState pile;         // settled, or the state at the time limit

@@ -3,9 +3,10 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "app/planning/flight_cache.h"
 #include "app/planning/flight_path.h"
 #include "app/planning/void_places.h"
-#include "scripting/trajectory/sample_path.h"
+#include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
 namespace {
@@ -51,31 +52,51 @@ std::string seconds(double value) {
   return text;
 }
 
+// Puts numbers in the place of voids, and ways around the pile in the place of legs.
+PlannedWay plan_way(const TrajectorySpec& asked, PileSurvey& survey, const FlightProgress& progress) {
+  PlannedWay way{asked, {}, {}};
+  TrajectorySpec& spec = way.trajectory;
+  Json report = Json::object();
+  const PileSpace space(survey, spec, progress);
+  for (const ResolvedVoid& found : resolve_places(space, spec))
+    report["voids"].push_back({{"waypoint", found.waypoint},
+                               {"radius_m", found.radius},
+                               {"volume_m3", found.volume},
+                               {"way_in_m", found.way_in},
+                               {"position", json_of(found.position)}});
+  if (spec.plan == Plan::avoid) {
+    const double length = plan_around(survey.geometry(), space, spec);
+    report["length_m"] = length;
+    char text[48];
+    std::snprintf(text, sizeof text, "a way of %.1f m", length);
+    way.summary = text;
+  }
+  way.report = report.dump();
+  return way;
+}
+
+PlannedWay plan_way_once(const TrajectorySpec& asked, PileSurvey& survey, const FlightProgress& progress, const DiskCache& disk) {
+  const FlightCache cache(disk, asked, survey);
+  if (const std::optional<PlannedWay> kept = cache.find()) return *kept;
+  const PlannedWay way = plan_way(asked, survey, progress);
+  cache.store(way);
+  return way;
+}
+
 }  // namespace
 
-FlightPlan resolve_flight(const Scenario& scenario, PileSurvey& survey,
-                          const FlightProgress& progress) {
+FlightPlan resolve_flight(const Scenario& scenario, PileSurvey& survey, const FlightProgress& progress, const DiskCache& cache) {
   FlightPlan flight;
   flight.trajectory = flown_trajectory(scenario);
   TrajectorySpec& spec = flight.trajectory;
   Json report = Json::object();
   if (spec.needs_pile()) {
-    const PileGeometry& geometry = survey.geometry();
-    const PileSpace space(survey, spec, progress);
-    for (const ResolvedVoid& found : resolve_places(space, spec))
-      report["voids"].push_back({{"waypoint", found.waypoint},
-                                 {"radius_m", found.radius},
-                                 {"volume_m3", found.volume},
-                                 {"way_in_m", found.way_in},
-                                 {"position", json_of(found.position)}});
-    if (spec.plan == Plan::avoid) {
-      const double length = plan_around(geometry, space, spec);
-      report["length_m"] = length;
-      char text[48];
-      std::snprintf(text, sizeof text, "a way of %.1f m", length);
-      flight.summary = text;
-    }
+    const PlannedWay way = plan_way_once(spec, survey, progress, cache);
+    spec = way.trajectory;
+    report = Json::parse(way.report);
+    flight.summary = way.summary;
     if (spec.plan != Plan::ghost) {
+      const PileGeometry& geometry = survey.geometry();
       smooth_within_room(scenario, geometry, geometry.pile, spec);
       const NearestApproach nearest = check_contact(geometry, spec, geometry.pile);
       report["least_clearance_m"] = nearest.clearance;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/planning/pile_survey.h"
+#include "kernel/base/system/disk_cache.h"
 #include "scripting/scenario/scenario.h"
 #include "scripting/trajectory/trajectory.h"
 
@@ -30,7 +31,8 @@ using FlightProgress = std::function<void(double done, const std::string& what)>
 
 // Throws InputError, keyed by the waypoint or "trajectory.plan": no such void, no way (and where it
 // is narrowest), or the time and place of the first contact.
+// cache: of ways that were planned before (flight_cache.h); none by default.
 FlightPlan resolve_flight(const Scenario& scenario, PileSurvey& survey,
-                          const FlightProgress& progress = {});
+                          const FlightProgress& progress = {}, const DiskCache& cache = DiskCache{});
 
 }  // namespace rubble

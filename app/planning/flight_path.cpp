@@ -159,13 +159,16 @@ Vec3 look_ahead(const std::vector<Vec3>& points, std::size_t i, double ahead) {
   return points.back() + normalized(last) * ahead;
 }
 
-// A leg as waypoints, without its first; the last is the user's own, moved to where there is room.
-void append_leg(const std::vector<Vec3>& points, const Waypoint& goal, TrajectorySpec& spec) {
+// A leg as waypoints, without its first; the last is the user's own, moved to where there is room. What both ends look at,
+// as those of an orbit, the camera looks at in between.
+void append_leg(const std::vector<Vec3>& points, const Waypoint& start, const Waypoint& goal, TrajectorySpec& spec) {
+  const bool one_target = start.look_at && goal.look_at && *start.look_at == *goal.look_at;
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (distance(points[i], spec.waypoints.back().position) < 1e-4) continue;
     Waypoint w;
     const bool last = i + 1 == points.size();
     if (last) w = goal;
+    if (one_target) w.look_at = goal.look_at;
     w.position = points[i];
     w.speed = goal.speed;
     if (!w.look_at && w.rpy_deg == Vec3{}) w.look_at = look_ahead(points, i, kLookAhead);
@@ -190,7 +193,7 @@ double plan_around(const PileGeometry& geometry, const PileSpace& space, Traject
       if (!start.look_at && start.rpy_deg == Vec3{}) start.look_at = look_ahead(points, 0, kLookAhead);
       spec.waypoints.push_back(start);
     }
-    append_leg(points, asked[i], spec);
+    append_leg(points, asked[i - 1], asked[i], spec);
     for (std::size_t k = 0; k + 1 < points.size(); ++k) length += distance(points[k], points[k + 1]);
     here = points.back();
   }

@@ -13,7 +13,7 @@ struct NearestApproach {
 
 // Replaces the legs between waypoints by ways on which a sphere of spec.radius touches nothing: the
 // shortest ones through the free space, their corners rounded as far as there is room. In between the
-// camera looks where it goes. Throws InputError when there is no way, with the widest gap.
+// camera looks where it goes, or at the one point that both waypoints look at. Throws InputError when there is no way, with the widest gap.
 // Gives the length of all legs; unit: m
 double plan_around(const PileGeometry& geometry, const PileSpace& space, TrajectorySpec& spec);
 

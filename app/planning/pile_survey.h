@@ -27,6 +27,8 @@ class PileSurvey {
   // Assets and pile must outlive it. threads: at least 1; no result depends on it.
   PileSurvey(const AssetLibrary& assets, const PileState& pile, int threads);
 
+  const AssetLibrary& assets() const { return assets_; }
+  const PileState& pile() const { return pile_; }
   const PileGeometry& geometry();
   // Free space in voxels, and the voids of robots of these radii (unit: m; each at least a voxel; none:
   // the space alone). Of `options`, threads and scenery are the survey's own. The same space serves every

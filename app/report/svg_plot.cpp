@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "app/report/html_text.h"
 
@@ -62,6 +63,21 @@ std::string ends_of_y(Span y) {
          text_at(kLeft - 4, kTop + 8, "end", number(y.high));
 }
 
+// Widens one of the two, so that a unit is as long on both axes.
+void make_equal(Span& x, Span& y) {
+  const double width = kWidth - kLeft - kRight, height = kHeight - kTop - kBottom;
+  const double unit = std::max((x.high - x.low) / width, (y.high - y.low) / height);
+  for (const auto& [span, size] : {std::pair{&x, width}, {&y, height}}) {
+    const double middle = 0.5 * (span->low + span->high);
+    *span = {middle - 0.5 * unit * size, middle + 0.5 * unit * size};
+  }
+}
+
+constexpr char kPlotStyle[] =
+    "<style>svg{font:9px sans-serif;background:#fff}.axis{stroke:#888}.bar{fill:#4a6d8c}.dot{fill:#4a6d8c}"
+    ".dot.bad{fill:#c0392b}.line{fill:none;stroke:#333;stroke-width:1.4}.line.second{stroke:#c0392b}"
+    "g.second text{fill:#c0392b}</style>";
+
 }  // namespace
 
 std::string make_histogram(const std::string& title, const std::vector<double>& values, int bins) {
@@ -104,6 +120,37 @@ std::string make_scatter(const std::string& x_title, const std::string& y_title,
            number(to_x(point.x, x)) + "\" cy=\"" + number(to_y(point.y, y)) + "\" r=\"3\"><title>" +
            html_escape(point.name) + ": " + number(point.x) + ", " + number(point.y) +
            "</title></circle>";
+  return svg + "</svg>\n";
+}
+
+std::string make_lines(const std::string& x_title, const std::string& y_title, const std::vector<PlotLine>& lines,
+                       bool equal) {
+  std::vector<double> xs, ys;
+  for (const PlotLine& line : lines)
+    for (const PlotPoint& point : line.points) xs.push_back(point.x), ys.push_back(point.y);
+  if (xs.empty()) return "";
+  Span x = span_of(xs), y = span_of(ys);
+  if (equal) make_equal(x, y);
+  std::string svg = begin(y_title) + ends_of_x(x) + ends_of_y(y) +
+                    text_at((kLeft + kWidth) / 2, kHeight - 4, "middle", x_title);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::string kind = i == 0 ? "" : " second";
+    svg += "<polyline class=\"line" + kind + "\" points=\"";
+    for (const PlotPoint& point : lines[i].points) svg += number(to_x(point.x, x)) + "," + number(to_y(point.y, y)) + " ";
+    svg += "\"><title>" + html_escape(lines[i].name) + "</title></polyline>";
+    if (lines.size() < 2) continue;
+    svg += "<g" + std::string(i == 0 ? "" : " class=\"second\"") + ">" +
+           text_at(kWidth - kRight, kTop + 8 + 11 * double(i), "end", lines[i].name) + "</g>";
+  }
+  return svg + "</svg>\n";
+}
+
+std::string make_svg_file(const std::vector<std::string>& plots) {
+  const double width = kWidth * double(plots.size());
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(2 * width) + "\" height=\"" +
+                    number(2 * kHeight) + "\" viewBox=\"0 0 " + number(width) + " " + number(kHeight) + "\">" + kPlotStyle + "\n";
+  for (std::size_t i = 0; i < plots.size(); ++i)
+    svg += "<g transform=\"translate(" + number(kWidth * double(i)) + " 0)\">" + plots[i] + "</g>\n";
   return svg + "</svg>\n";
 }
 

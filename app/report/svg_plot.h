@@ -1,4 +1,4 @@
-// Small plots as inline SVG.
+// Small plots as SVG: inline in pages, or as a file.
 #pragma once
 
 #include <string>
@@ -19,5 +19,17 @@ std::string make_histogram(const std::string& title, const std::vector<double>& 
 std::string make_scatter(const std::string& x_title, const std::string& y_title,
                          const std::vector<PlotPoint>& points,
                          const std::vector<std::string>& categories = {});
+
+struct PlotLine {
+  std::string name;  // shown where the pointer rests, and as the key of the plot
+  std::vector<PlotPoint> points;
+};
+
+// The first line is drawn dark, the second in another colour. equal: one scale for both axes, as in a plan.
+std::string make_lines(const std::string& x_title, const std::string& y_title, const std::vector<PlotLine>& lines,
+                       bool equal = false);
+
+// Plots beside each other, as the text of an SVG file of its own.
+std::string make_svg_file(const std::vector<std::string>& plots);
 
 }  // namespace rubble

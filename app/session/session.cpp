@@ -7,11 +7,38 @@
 #include "app/control/robot_control.h"
 #include "app/control/robot_senses.h"
 #include "app/control/script_control.h"
+#include "app/sensors/camera_renderers.h"
 #include "app/sensors/camera_sensor.h"
-#include "app/session/live_colours.h"
+#include "app/support/drawing_device.h"
 #include "kernel/world/world_robots.h"
 
 namespace rubble {
+
+struct LiveColoursOptions {
+  int threads = 1;
+  Renderer::Progress progress;  // of the light
+};
+
+// What cameras on robots show while the robots are driven: renderers of their own, of the scene that goes on.
+//
+// Its pictures have the bits of the recorded ones, which are drawn by such renderers of a scene that is lit in the same way
+// then: build_live_scene().
+class LiveColours {
+ public:
+  // scene: shows everything where the history of the sensors has it. drawn: numbers of the cameras. Throws RunError as
+  // Renderer does.
+  LiveColours(std::unique_ptr<Device> device, const Scene& scene, const std::vector<MountedCamera>& cameras,
+              const std::vector<std::size_t>& drawn, const LiveColoursOptions& options)
+      : device_(std::move(device)),
+        renderers_(scene, cameras, drawn, *device_, {options.threads, options.progress, {}}) {}
+
+  Renderer& renderer_of(std::size_t camera) { return renderers_.of(camera); }
+
+ private:
+  std::unique_ptr<Device> device_;
+  CameraRenderers renderers_;
+};
+
 namespace {
 
 // Numbers of the sensors on robots.
@@ -119,8 +146,8 @@ void Session::make_sensors() {
   for (const std::size_t i : depths) sensors_.push_back({make_depth_sensor(parts, i), scenario_.cameras[i].ride});
   if (!colours.empty() && !colours_)
     colours_ = std::make_unique<LiveColours>(
-        scene, scenario_.cameras, colours,
-        LiveColoursOptions{context_.options.gl_device, context_.threads(), [this](double done) {
+        open_device(context_.options.gl_device, context_.threads()), scene, scenario_.cameras, colours,
+        LiveColoursOptions{context_.threads(), [this](double done) {
                              context_.progress.update(0, "light " + std::to_string(int(100 * done)) + " %");
                            }});
   for (const std::size_t i : colours)

@@ -1,15 +1,16 @@
 """Structure from motion by COLMAP, which is run, never linked: the pictures of a recording alone, with its defaults
 and the true intrinsics."""
 import pathlib
+import sys
 import tempfile
-import types
 
 import cv2
 import numpy as np
 import slam
-import stages
 
-DEFAULTS = types.SimpleNamespace(features=[], matching=[])
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "demonstration"))
+import colmap  # noqa: E402
+from work import run  # noqa: E402
 
 
 def write_pictures(frames, folder):
@@ -20,23 +21,19 @@ def write_pictures(frames, folder):
 
 def reconstruct(frames, k, work):
     """The folders of the models that COLMAP finds: none is a result, too."""
-    steps = stages.Stages(work.parent, "rubble")
     images = work / "images"
     write_pictures(frames, images)
     # COLMAP counts its image from corner to corner.
     camera = ",".join("%.17g" % v for v in (k[0, 0], k[1, 1], k[0, 2] + 0.5, k[1, 2] + 0.5))
-    steps.features(work, images, camera, DEFAULTS)
-    steps.matches(work, DEFAULTS)
-    steps.map(work, images)
-    return sorted((work / "sparse").iterdir()), steps
+    colmap.reconstruct(work, images, camera, work / "colmap.log")
+    return sorted((work / "sparse").iterdir())
 
 
-def read_poses(model, work, steps):
+def read_poses(model, work):
     """{number of the frame: pose of the body of the camera}, at the model's own scale."""
     text = work / (model.name + "_text")
     text.mkdir()
-    steps.run(["colmap", "model_converter", "--input_path", model, "--output_path", text, "--output_type", "TXT"],
-              work / "colmap.log")
+    run(["colmap", "model_converter", "--input_path", model, "--output_path", text, "--output_type", "TXT"], work / "colmap.log")
     poses = {}
     lines = [line for line in (text / "images.txt").read_text().splitlines() if not line.startswith("#")]
     for line in lines[::2]:  # every other one lists points
@@ -54,7 +51,7 @@ def follow(frames, k):
     with tempfile.TemporaryDirectory(prefix="rubble50_colmap_") as folder:
         work = pathlib.Path(folder) / "model"
         work.mkdir()
-        models, steps = reconstruct(frames, k, work)
-        poses = max((read_poses(model, work, steps) for model in models), key=len, default={})
+        models = reconstruct(frames, k, work)
+        poses = max((read_poses(model, work) for model in models), key=len, default={})
     numbers = sorted(poses)
     return [frames[i] for i in numbers], [poses[i] for i in numbers], len(frames) - len(numbers)

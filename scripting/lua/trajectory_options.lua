@@ -3,8 +3,8 @@
 return function(list)
   local common = {
     { "rate_hz", 30, min = 0.001, max = 1000, unit = "Hz", doc = "Frames per second." },
-    { "plan", "ghost", choices = { "ghost", "refuse" },
-      doc = "As `trajectory.plan`: fly through pieces, or stop at the first contact." },
+    { "plan", "ghost", choices = { "ghost", "refuse", "avoid" },
+      doc = "As `trajectory.plan`: fly through pieces, stop at the first contact, or fly around." },
     { "radius", 0.1, min = 0.005, max = 10, unit = "m", doc = "As `trajectory.radius`: of the camera's body." },
     { "max_speed", nil, type = "number", above = 0, max = 1000, unit = "m/s", doc = "As `trajectory.max_speed`." },
     { "max_acceleration", nil, type = "number", above = 0, max = 10000, unit = "m/s2",

@@ -11,8 +11,6 @@
 #include "kernel/base/text.h"
 #include "scripting/sandbox/lua_host.h"
 #include "scripting/sandbox/lua_library.h"
-#include "scripting/sandbox/lua_library_code.h"
-#include "scripting/sandbox/lua_prelude.h"
 #include "scripting/sandbox/lua_value.h"
 #include "scripting/sandbox/script_includes.h"
 #include "scripting/schema/schema.h"
@@ -327,6 +325,7 @@ std::vector<DescribedFunction> LuaSandbox::describe_library() {
     const std::string first = file.name == "density/from" || file.name == "terrain/from"
                                   ? "one, "
                               : file.name == "trajectory/along" ? "at, "
+                              : file.name == "trajectory/join"  ? "{ { position = { 0, 0, 1 } } }, "
                                                                 : "";
     script += "rubble." + file.name.substr(0, slash) + "." + file.name.substr(slash + 1) + "(" +
               first + "{})\n";

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <complex>
 #include <nlohmann/json.hpp>
 
 #include "app/eval/scores/alignment.h"
@@ -150,6 +151,63 @@ TEST(EvalTrajectory, PrintsTheKeysThatOthersRead) {
   EXPECT_NEAR(json["sim3_scale"].get<double>(), 0.5, 1e-9);
   EXPECT_NEAR(json["rpe_trans_rmse_m"].get<double>(), 1, 1e-9);
   EXPECT_NEAR(json["rpe_rot_rmse_deg"].get<double>(), 0, 1e-6);
+}
+
+// A circle of 32 m in 320 steps. The estimate goes 2 % too far in each step and turns 0.001 rad more: after a segment of n
+// steps from any start it is off by a chord that a sum of complex numbers gives.
+TEST(TrajectoryError, SegmentsAreThoseOfKitti) {
+  constexpr double kPi = 3.14159265358979323846, kStep = 2 * kPi / 320;
+  const auto chain = [&](double length, double turn) {
+    std::vector<Pose> poses{Pose{}};
+    for (int i = 0; i < 319; ++i) poses.push_back(poses.back() * pose_at({length, 0, 0}, about_z(turn * 180 / kPi)));
+    return poses;
+  };
+  const std::vector<Pose> truth = chain(0.1, kStep), estimate = chain(0.102, kStep + 0.001);
+  std::vector<PosePair> pairs;
+  for (std::size_t i = 0; i < truth.size(); ++i) pairs.push_back({estimate[i], truth[i]});
+  const SegmentError error = calc_segment_error(pairs, 5.05);  // ends at the first pose beyond: 51 steps
+  std::complex<double> t, e;
+  for (int i = 0; i < 51; ++i) t += std::polar(0.1, i * kStep), e += std::polar(0.102, i * (kStep + 0.001));
+  EXPECT_EQ(error.segments, 27) << "starts 0, 10, ..., 260: 268 + 51 is the last pose";
+  EXPECT_NEAR(error.trans_percent, 100 * std::abs(t - e) / 5.05, 1e-9);
+  EXPECT_NEAR(error.rot_deg_per_m, 51 * 0.001 * 180 / kPi / 5.05, 1e-9);
+  EXPECT_EQ(calc_segment_error(pairs, 40).segments, 0);
+}
+
+// KITTI's poses have no stamps: times.txt has them, for an estimate with stamps.
+TEST(EvalTrajectory, StampsKittisPosesAndDrawsThem) {
+  const ScratchFolder scratch;
+  std::string kitti, times, tum;
+  for (int i = 0; i < 12; ++i) {
+    const std::string z = std::to_string(i), x = std::to_string(i * i * 0.01);
+    kitti += "1 0 0 " + x + " 0 1 0 0 0 0 1 " + z + "\n";
+    times += (i < 10 ? "0." : "1.") + std::to_string(i % 10) + "\n";
+    if (i % 2 == 0) tum += (i < 10 ? "0." : "1.") + std::to_string(i % 10) + " " + x + " 0 " + z + " 0 0 0 1\n";
+  }
+  write_file(scratch / "00.txt", kitti);
+  write_file(scratch / "times.txt", times);
+  write_file(scratch / "slam.txt", tum);
+  const std::string both = "eval trajectory " + (scratch / "slam.txt") + " " + (scratch / "00.txt");
+  const Outcome run = run_rubble(both + " --times " + (scratch / "times.txt") + " --segments 2,99 --json --plot " + (scratch / "p.svg"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["pairs"], 6);
+  EXPECT_NEAR(json["ate_rmse_se3_m"].get<double>(), 0, 1e-9);
+  EXPECT_EQ(json["kitti"][0]["segments"], 1);
+  EXPECT_NEAR(json["kitti"][0]["trans_percent"].get<double>(), 0, 1e-9);
+  EXPECT_NE(run.err.find("no segment of 99 m"), std::string::npos) << run.err;
+  const std::string plot = read_file(scratch / "p.svg");
+  EXPECT_EQ(plot.rfind("<svg xmlns=\"http://www.w3.org/2000/svg\"", 0), 0u);
+  for (const char* part : {">z (m)<", ">estimate, aligned<", ">error of position (m)<", ">time (s)<"})
+    EXPECT_NE(plot.find(part), std::string::npos) << part;
+  write_file(scratch / "few.txt", "0.0\n0.1\n");
+  write_file(scratch / "bad.txt", "0\n0.1\n0.3\n0.2\n" + times.substr(16));
+  for (const auto& [file, message] : {std::pair{"few.txt", "few.txt: has another number of stamps"}, {"bad.txt", "bad.txt:4: out of order"}}) {
+    const Outcome bad = run_rubble(both + " --times " + (scratch / file));
+    EXPECT_EQ(bad.exit_code, 1);
+    EXPECT_NE(bad.err.find(message), std::string::npos) << bad.err;
+  }
+  EXPECT_EQ(run_rubble("eval trajectory " + (scratch / "slam.txt") + " " + (scratch / "slam.txt") + " --times " + (scratch / "times.txt")).exit_code, 1);
 }
 
 // A straight flight along X; the estimate goes along Y and is 5 cm beside it, on either side so that no turn and no

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/settled_mission.h"
@@ -102,6 +103,42 @@ TEST(Avoid, MakesTheFreeSpaceOnlyWhereNoStraightLegWillDo) {
   EXPECT_GT(count_reports("{ 3, 0, 1 }"), 0);
 }
 
+// A way that is in the cache is not searched again, and is the same to the bit, whatever the frame rate.
+TEST(FlightCache, KeepsAWayUnderAllThatItFollowsFrom) {
+  const std::string folder = ::testing::TempDir() + "flight_cache";
+  std::filesystem::remove_all(folder);
+  const DiskCache cache(folder);
+  int reports = 0;
+  const auto plan_kept = [&](const SettledMission& m) {
+    reports = 0;
+    PileSurvey survey(m.assets, m.state, 1);
+    return resolve_flight(m.mission.scenario, survey, [&](double, const std::string&) { ++reports; }, cache);
+  };
+  const auto way = [](const std::string& goal, const std::string& size, const std::string& more) {
+    return scene("{ box = { 1, 1, " + size + " }, position = { 0, 0, 1 } }",
+                 "plan = 'avoid', radius = 0.3, " + more + "waypoints = { { position = { -3, 0, 1 } }, { position = " + goal + " } }");
+  };
+  const SettledMission m = way("{ 3, 0, 1 }", "2", "");
+  const FlightPlan first = plan_kept(m);
+  EXPECT_GT(reports, 0);
+  const FlightPlan again = plan_kept(m);
+  EXPECT_EQ(reports, 0);
+  EXPECT_EQ(again.json, first.json);
+  EXPECT_EQ(again.summary, first.summary);
+  ASSERT_EQ(again.poses.size(), first.poses.size());
+  for (std::size_t i = 0; i < first.poses.size(); ++i) {
+    EXPECT_EQ(again.poses[i].stamp_ns, first.poses[i].stamp_ns);
+    EXPECT_TRUE(again.poses[i].world_from_camera.translation == first.poses[i].world_from_camera.translation) << i;
+    EXPECT_TRUE(again.poses[i].world_from_camera.rotation == first.poses[i].world_from_camera.rotation) << i;
+  }
+  plan_kept(way("{ 3, 0, 1 }", "2", "smoothing = 0.05, max_speed = 0.3, "));  // come after the search
+  EXPECT_EQ(reports, 0);
+  plan_kept(way("{ 3, 0.5, 1 }", "2", ""));
+  EXPECT_GT(reports, 0);
+  plan_kept(way("{ 3, 0, 1 }", "1.9", ""));  // another pile
+  EXPECT_GT(reports, 0);
+}
+
 TEST(Avoid, FindsTheWayThroughTwoWindows) {
   const SettledMission m = scene(tunnel(0.9, 0.9),
                                  "plan = 'avoid', radius = 0.3, speed = 1, waypoints = { "
@@ -122,6 +159,32 @@ TEST(Avoid, FindsTheWayThroughTwoWindows) {
     const Pose &a = flight.poses[i - 1].world_from_camera, &b = flight.poses[i].world_from_camera;
     if (distance(a.translation, b.translation) < 1e-6) continue;
     EXPECT_GT(dot(normalized(b.translation - a.translation), b.rotation.rotate({1, 0, 0})), 0.8);
+  }
+}
+
+// Half a circle around a block, which a column stands in, and then through a place that the block hides.
+TEST(Avoid, AnOrbitGoesAroundWhatStandsInItAndOnToWaypoints) {
+  const SettledMission m = settle_text(
+      "local orbit = rubble.trajectory.orbit { centre = { 0, 0, 0.5 }, radius_m = 3, height = 1, turns = 0.5, speed = 1 }\n"
+      "return rubble.mission { pile = { layers = 0, placed = { { box = { 1, 1, 2 }, position = { 0, 0, 1 } }, "
+      "{ box = { 0.3, 0.3, 3 }, position = { 0, -3, 1.5 } } } }, trajectory = rubble.trajectory.join({ orbit, "
+      "{ { position = { -2, 2, 1 } } } }, { plan = 'avoid', radius = 0.2, speed = 0.5, rate_hz = 10 }) }");
+  const FlightPlan flight = plan(m);
+  const PileQueries queries = m.queries();
+  double nearest_to_column = 1e9;
+  for (const CameraPose& pose : flight.poses) {
+    const Vec3 p = pose.world_from_camera.translation;
+    EXPECT_GE(queries.clearance(p), 0.199);
+    nearest_to_column = std::min(nearest_to_column, std::hypot(p.x, p.y + 3));
+  }
+  EXPECT_LT(nearest_to_column, 0.7) << "it goes around it closely";
+  EXPECT_NEAR(distance(flight.poses.front().world_from_camera.translation, {-3, 0, 1.5}), 0, 1e-6);
+  EXPECT_NEAR(distance(flight.poses.back().world_from_camera.translation, {-2, 2, 1}), 0, 0.06);
+  // On the circle, and around the column, the view stays on its centre, but for the roundings of the path.
+  for (const CameraPose& pose : flight.poses) {
+    const Vec3 p = pose.world_from_camera.translation;
+    if (p.x > 2) break;
+    EXPECT_GT(dot(pose.world_from_camera.rotation.rotate({1, 0, 0}), normalized(Vec3{0, 0, 0.5} - p)), 0.99);
   }
 }
 

@@ -294,6 +294,34 @@ TEST(Render, FliesAnotherMissionOverTheSamePileAndCanBeVerified) {
   EXPECT_EQ(verify.exit_code, 0) << verify.out << verify.err;
 }
 
+// The second mission flies over the pile of the first, which is settled once.
+TEST(Run, RecordsSeveralFlightsOverOnePile) {
+  const ScratchFolder scratch;
+  write_file(scratch / "outside.lua", kTinyMission);
+  std::string inside = kTinyMission;
+  write_file(scratch / "inside.lua", inside.insert(inside.find("trajectory"), "lamp = { on = false }, "));
+  const std::string run = "run " + (scratch / "outside.lua") + " --set camera.width=32 --set camera.height=24 --out " + (scratch / "out");
+  const Outcome both = run_rubble(run + " --also " + (scratch / "inside.lua"));
+  ASSERT_EQ(both.exit_code, 0) << both.err;
+  const auto first = read_manifest(scratch / "out/outside"), second = read_manifest(scratch / "out/inside");
+  EXPECT_EQ(first.at("kind"), "run");
+  EXPECT_EQ(second.at("kind"), "render");
+  EXPECT_EQ(read_state_hash(scratch / "out/outside"), read_state_hash(scratch / "out/inside"));
+  EXPECT_NE(first.at("frames"), second.at("frames"));
+  EXPECT_EQ(run_rubble("verify " + (scratch / "out/inside")).exit_code, 0);
+  // Told before anything is settled.
+  write_file(scratch / "other.lua", "return rubble.mission { seed = 99 }\n");
+  const std::string more = "run " + (scratch / "outside.lua") + " --out " + (scratch / "none") + " --also ";
+  const Outcome seed = run_rubble(more + (scratch / "other.lua"));
+  EXPECT_EQ(seed.exit_code, 1);
+  EXPECT_IN("other.lua: seed: has another seed", seed.err);
+  const Outcome pile = run_rubble(more + (scratch / "other.lua") + " --seed 5");
+  EXPECT_EQ(pile.exit_code, 1);
+  EXPECT_IN("other.lua: pile: states another pile than", pile.err);
+  EXPECT_EQ(run_rubble(more + (scratch / "outside.lua")).exit_code, 1);
+  EXPECT_FALSE(fs::exists(scratch / "none"));
+}
+
 TEST(Render, RefusesADamagedOrForeignPile) {
   const ScratchFolder scratch;
   write_file(scratch / "tiny.lua", kTinyMission);

@@ -244,7 +244,39 @@ def pandas_reads_the_table_of_pieces():
     need((table.mass_kg > 0).all(), "masses")
 
 
-CHECKS = [rosbags_reads_the_folder, robots_are_as_rep_105_says, mcap_has_one_schema_for_each_type, nerfstudio_projects_points,
+def bop_has_poses_of_objects():
+    """Of every visible object: each pixel, by the depth image, lies on its model in its pose; masks are those of instances."""
+    from PIL import Image
+    root, frames = DATA / "bop", Frames(DATA / "single")
+    scene, models = root / "test" / "000001", json.loads((root / "models" / "models_info.json").read_text(encoding="ascii"))
+    cameras, truth, info = (json.loads((scene / f"scene_{name}.json").read_text(encoding="ascii")) for name in ("camera", "gt", "gt_info"))
+    need(set(cameras) == set(truth) == {str(i) for i in range(len(frames.rows))}, "images %s", set(truth))
+    objects = 0
+    for key, entries in truth.items():
+        camera, number = cameras[key], int(key)
+        need(np.array_equal(np.array(Image.open(scene / "rgb" / f"{number:06d}.png")), frames.rgb(number)), "picture %d", number)
+        pose = matrix(np.reshape(camera["cam_R_w2c"], (3, 3)), camera["cam_t_w2c"])
+        close(np.linalg.inv(pose)[:3, :3], frames.optical[number][:3, :3], 1e-9, "camera %d", number)
+        depth = np.array(Image.open(scene / "depth" / f"{number:06d}.png")) * camera["depth_scale"]
+        fx, _, cx, _, fy, cy = camera["cam_K"][:6]
+        for i, (entry, about) in enumerate(zip(entries, info[key])):
+            mask = np.array(Image.open(scene / "mask_visib" / f"{number:06d}_{i:06d}.png")) > 0
+            whole = np.array(Image.open(scene / "mask" / f"{number:06d}_{i:06d}.png")) > 0
+            need((whole | ~mask).all() and (mask.sum(), whole.sum()) == (about["px_count_visib"], about["px_count_all"]), "masks %d %d", number, i)
+            v, u = np.nonzero(mask & (depth > 0))
+            z = depth[v, u]
+            points = np.stack([(u - cx) * z / fx, (v - cy) * z / fy, z], axis=1) - entry["cam_t_m2c"]
+            points = points @ np.reshape(entry["cam_R_m2c"], (3, 3))
+            model = models[str(entry["obj_id"])]
+            low = np.array([model["min_" + a] for a in "xyz"])
+            high = low + [model["size_" + a] for a in "xyz"]
+            need(((points > low - 1) & (points < high + 1)).all(), "pixels beside object %d in image %d", entry["obj_id"], number)
+            need(model["diameter"] <= np.linalg.norm(high - low) + 1e-6 and model["diameter"] >= max(high - low) - 1e-6, "diameter %s", model)
+            objects += 1
+    need(objects > 20, "%d objects", objects)
+
+
+CHECKS = [bop_has_poses_of_objects, rosbags_reads_the_folder, robots_are_as_rep_105_says, mcap_has_one_schema_for_each_type, nerfstudio_projects_points,
           nerfstudio_has_all_cameras, pycolmap_reads_rigs, pycolmap_triangulates_with_rigs, pycocotools_finds_masks,
           pykitti_reads_odometry, webdataset_decodes, lerobot_is_read_by_pyarrow, mcap_ros2_decodes_all_topics,
           rerun_converts_without_an_error, evo_agrees,

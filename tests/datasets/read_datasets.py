@@ -45,17 +45,17 @@ MISSIONS = {
 }
 
 
-def prepare_readers(folder):
-    """The locked packages in an environment of their own; None: they cannot be had here."""
+def prepare_readers(folder, locked="requirements.txt"):
+    """The packages of a list of this folder in an environment of their own; None: they cannot be had here."""
     python = folder / "readers" / "bin" / "python"
-    lock = (HERE / "requirements.txt").read_text(encoding="ascii")
+    lock = (HERE / locked).read_text(encoding="ascii")
     stamp = folder / "readers" / "installed.txt"
     if stamp.exists() and stamp.read_text(encoding="ascii") == lock:
         return python
     shutil.rmtree(folder / "readers", ignore_errors=True)
     for command in ([sys.executable, "-m", "venv", folder / "readers"],
                     [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--only-binary", ":all:",
-                     "--requirement", HERE / "requirements.txt"]):
+                     "--requirement", HERE / locked]):
         if subprocess.run(command, check=False).returncode != 0:
             return None
     stamp.write_text(lock, encoding="ascii")
@@ -94,6 +94,15 @@ def score(program, data):
         subprocess.run([program, "pieces", data / "single", "--out", data / ("pieces" + ending)], check=True)
 
 
+def convert(python, program, data):
+    """The dataset of BOP that rubble.bop makes of the images of a run; it refuses a lens, and a run without instances."""
+    bop = [python, HERE.parents[1] / "python" / "rubble" / "bop.py"]
+    subprocess.run([*bop, data / "single", "-o", data / "bop", "--program", program], check=True)
+    refused = subprocess.run([*bop, data / "robot", "-o", data / "none", "--program", program], check=False, stderr=subprocess.PIPE, text=True)
+    if refused.returncode != 1 or "has no instances" not in refused.stderr or (data / "none").exists():
+        raise SystemExit("rubble.bop of a run without instances: " + refused.stderr)
+
+
 def main():
     program, folder, wanted = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve(), sys.argv[3:]
     folder.mkdir(parents=True, exist_ok=True)
@@ -103,6 +112,7 @@ def main():
         return SKIPPED
     record(program, folder / "data")
     score(program, folder / "data")
+    convert(python, program, folder / "data")
     environment = dict(os.environ, PYTHONDONTWRITEBYTECODE="1")
     return subprocess.run([python, HERE / "checks.py", folder / "data"] + wanted, check=False, env=environment).returncode
 

@@ -1,13 +1,15 @@
 """Counts of pairs and failures, in words and as the tables of a document."""
 import os
 import subprocess
+import sys
 
 import covering_array
 import known_failures
 import rules
 from factors import FACTORS
 
-BEGIN, END = "<!-- begin pairs -->", "<!-- end pairs -->"
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools"))
+import document_marks  # noqa: E402
 
 
 def count(array, answers, full=True):
@@ -49,10 +51,6 @@ def in_words(s):
 
 def write(path, summary, answers, program, date):
     """Replaces what stands between the markers of the document."""
-    with open(path, encoding="utf-8") as file:
-        text = file.read()
-    before, rest = text.split(BEGIN)
-    _, after = rest.split(END)
     version = subprocess.run([program, "--version"], capture_output=True, text=True, check=False).stdout.strip()
     commit = next((answer["commit"] for answer in answers if answer.get("commit")), "unknown")  # as manifests say
     s = summary
@@ -72,9 +70,7 @@ def write(path, summary, answers, program, date):
     lines += ["| %s | %s | %s |" % (named(a, x), named(b, y), why) for a, x, b, y, why in rules.MEANINGLESS]
     lines += ["", "### Known failures", "", "| name | missions | cause |", "|---|---|---|"]
     lines += ["| `%s` | %d | %s |" % (name, s["known"].get(name, 0), cause) for name, _, _, _, cause in known_failures.KNOWN]
-    with open(path + ".part", "w", encoding="utf-8") as file:
-        file.write(before + BEGIN + "\n".join(lines) + "\n" + END + after)
-    os.replace(path + ".part", path)
+    document_marks.write_between_marks(path, "pairs", "\n".join(lines[1:]) + "\n")
 
 
 def named(factor, levels):

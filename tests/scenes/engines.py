@@ -2,7 +2,7 @@
 """Simulates an exported scene by an engine: engines.py ENGINE EXPORT_FOLDER SECONDS
 
 Prints one line of JSON: how far free pieces drifted, and how long it took. Engines: mujoco, drake, pybullet, newton,
-and usd, which checks the file by OpenUSD's own validators and does not simulate. Each wants the Python package of its
+rapier, and usd, which checks the file by OpenUSD's own validators and does not simulate. Each wants the Python package of its
 name (usd: usd-core); see requirements.txt. Settings that an engine needs are here, each with its reason.
 """
 import json
@@ -127,6 +127,51 @@ def run_drake(folder, seconds):
     simulator.AdvanceTo(seconds)
     result = figures(begin, where(), seconds, time.time() - began, loaded)
     result["engine"] = "Drake " + version("drake")
+    return result
+
+
+def run_rapier(folder, seconds):
+    """By its loader of URDF, since that of MJCF leaves out meshes whose vertices are in the file."""
+    import rapier3d as r
+    from rapier3d.loaders import urdf
+    began = time.time()
+    scene = read_scene(folder / "urdf")
+    world = r.PhysicsWorld(gravity=(0, 0, -scene["gravity_m_s2"]))
+    sets = (world.rigid_bodies, world.colliders, world.multibody_joints)
+    ground = world.rigid_bodies.insert(r.RigidBody.fixed().build())
+    world.colliders.insert_with_parent(r.Collider.cuboid(100, 100, 1).translation((0, 0, -1)).friction(math.sqrt(0.8)).build(), ground, world.rigid_bodies)
+
+    def add(file, position, quaternion, fixed):
+        options = urdf.UrdfLoaderOptions(mesh_converter=r.MeshConverter.CONVEX_HULL, make_roots_fixed=fixed)
+        robot, model = urdf.UrdfRobot.from_file(str(folder / "urdf" / file), options, str((folder / "urdf" / file).parent))
+        robot.append_transform(r.Isometry3(tuple(position), r.Rotation3(*quaternion)))
+        handles = robot.insert_using_multibody_joints(*sets)
+        for link in handles.links:
+            for collider in link.colliders:
+                world.colliders[collider.handle].friction = math.sqrt(0.8)  # URDF has none
+        return {link.name: handle.body for link, handle in zip(model.links, handles.links)}
+    add("fixed.urdf", (0, 0, 0), (1, 0, 0, 0), True)
+    bodies = {}
+    for model in scene["models"]:
+        if model["file"] == "fixed.urdf" or model["robot"]:
+            continue
+        root = model["links"][0]
+        links = add(model["file"], root["position_m"], root["quaternion_wxyz"], model["fixed"])
+        bodies.update({link["name"]: links[link["name"]] for link in model["links"][1 if model["fixed"] else 0:]})
+    loaded = time.time() - began
+
+    def where(name):
+        return tuple(world.rigid_bodies[bodies[name]].translation)
+    begin = {name: where(name) for name in bodies}
+    began = time.time()
+    world.integration_parameters.dt = 1 / 240
+    for _ in range(round(seconds * 240)):
+        world.step()
+    for _, link in free_links(scene):
+        mass = world.rigid_bodies[bodies[link["name"]]].mass
+        assert abs(mass - link["mass_kg"]) < 1e-4 * link["mass_kg"], (link["name"], mass, link["mass_kg"])
+    result = figures(begin, {name: where(name) for name in bodies}, seconds, time.time() - began, loaded)
+    result["engine"] = "Rapier " + r.__version__
     return result
 
 

@@ -20,7 +20,8 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-ENGINES = {"mujoco": "mujoco", "mujoco_drive": "mujoco", "drake": "pydrake", "pybullet": "pybullet", "newton": "newton", "usd": "pxr"}
+ENGINES = {"mujoco": "mujoco", "mujoco_drive": "mujoco", "drake": "pydrake", "pybullet": "pybullet", "newton": "newton", "rapier": "rapier3d",
+           "usd": "pxr"}
 
 PACK = """return rubble.mission {{ seed = 5, packs = {{ "{pack}" }},
   pile = {{ layers = 2, pieces_per_layer = 20, spawn_position = {{ 0, 0, 3 }}, spawn_bounds = {{ 5, 5, 4 }} }},

@@ -282,6 +282,47 @@ TEST(FindVoid, StandsForPlacesUntilThePileHasSettled) {
   EXPECT_THROW(sample_trajectory(s.trajectory, 0), InputError);
 }
 
+// A quarter of a circle at 2 m/s, on to its centre's height at 0.5 m/s, into a void, and straight ahead at 1 m/s.
+TEST(Paths, JoinedPathsGoOnFromEachOther) {
+  const char* const kParts =
+      "local void = rubble.find_void {}\nlocal orbit = rubble.trajectory.orbit { centre = {0, 0, 1}, radius_m = 4, "
+      "height = 0, turns = 0.25, speed = 2, start_deg = 0 }\n";
+  const auto load_path = [&](const std::string& path) {
+    return load_text(kParts + ("return rubble.mission { trajectory = " + path + " }")).scenario;
+  };
+  const Scenario s = load_path("rubble.trajectory.join({ orbit, { { position = { 0, 4, 2 } }, { position = void.deepest } },"
+                               " rubble.trajectory.push { from = {5, 0, 1}, to = {7, 0, 1}, speed = 1 } }, { plan = 'avoid' })");
+  const std::vector<Waypoint>& w = s.trajectory.waypoints;
+  ASSERT_EQ(w.size(), 31u + 2 + 2);
+  EXPECT_EQ(s.trajectory.plan, Plan::avoid);
+  EXPECT_EQ(w[0].speed, std::nullopt);
+  for (std::size_t i = 1; i <= 30; ++i) EXPECT_NEAR(*w[i].speed, 2, 0.01);
+  EXPECT_EQ(*w[31].speed, 0.5);
+  EXPECT_TRUE(w[32].position_in_void);
+  EXPECT_NEAR(*w[34].speed, 1, 1e-9);
+  const auto poses = sample_trajectory(
+      load_path("rubble.trajectory.join({ orbit, { position = {0, 4, 2}, look_at = {0, 0, 1} } })").trajectory, 0);
+  EXPECT_NEAR(double(poses.size() - 1) / 30, 3.14159 + 2, 0.05);
+  EXPECT_NEAR(distance(poses.back().world_from_camera.translation, {0, 4, 2}), 0, 0.02);
+  // One path with a plan of its own: its times become speeds.
+  const Scenario spiral = load_path("rubble.trajectory.spiral { speed = 3, plan = 'avoid' }");
+  EXPECT_FALSE(spiral.trajectory.waypoints[5].t);
+  EXPECT_NEAR(*spiral.trajectory.waypoints[5].speed, 3, 1e-9);
+}
+
+TEST(Paths, WhatCannotBeJoinedIsSaid) {
+  const auto join_error = [](const std::string& parts, const std::string& options = "{}") {
+    return mission_error("local orbit = rubble.trajectory.orbit { turns = 0.1, max_speed = 1 }\nlocal v = rubble.find_void {}\nreturn { "
+                         "trajectory = rubble.trajectory.join(" + parts + ", " + options + ") }");
+  };
+  EXPECT_EQ(join_error("{ orbit }"), "m.lua:3: rubble.trajectory.join: part 1 has `max_speed`: give it in the options of rubble.trajectory.join");
+  EXPECT_EQ(join_error("{ orbit }", "{ max_speed = 1 }"), "");
+  EXPECT_EQ(join_error("{ 5 }"), "m.lua:3: rubble.trajectory.join: part 1 is no path but a number");
+  EXPECT_EQ(join_error("{}"), "m.lua:3: rubble.trajectory.join has no waypoint");
+  EXPECT_NE(join_error("{ { { position = {0, 0, 1} }, { t = 1, position = {0, 0, 1} } } }").find("stands still"), std::string::npos);
+  EXPECT_NE(join_error("{ { { position = v.deepest }, { t = 1, position = {0, 0, 1} } } }").find("give a `speed`"), std::string::npos);
+}
+
 TEST(FindVoid, Mistakes) {
   EXPECT_EQ(mission_error("local v = rubble.find_void { radios = 1 }\nreturn {}"),
             "m.lua:1: rubble.find_void.radios: unknown key `radios` (did you mean `radius`?)");

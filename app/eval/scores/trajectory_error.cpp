@@ -73,7 +73,7 @@ std::vector<PosePair> associate(const std::vector<StampedPose>& estimate,
     const StampedPose& other = longer[find_nearest(longer, pose.stamp)];
     if (std::abs(other.stamp - pose.stamp) > max_difference) continue;
     const Pose &a = pose.world_from_body, &b = other.world_from_body;
-    pairs.push_back(truth_is_longer ? PosePair{a, b} : PosePair{b, a});
+    pairs.push_back(truth_is_longer ? PosePair{a, b, other.stamp} : PosePair{b, a, pose.stamp});
   }
   return pairs;
 }
@@ -92,6 +92,35 @@ RelativeError calc_relative_error(const std::vector<PosePair>& pairs, int delta)
   error.rot_rmse_deg = root_mean_square(angles);
   error.steps = int(lengths.size());
   return error;
+}
+
+SegmentError calc_segment_error(const std::vector<PosePair>& pairs, double length) {
+  constexpr std::size_t kStep = 10;
+  std::vector<double> way{0};
+  for (std::size_t i = 1; i < pairs.size(); ++i)
+    way.push_back(way.back() + distance(pairs[i - 1].truth.translation, pairs[i].truth.translation));
+  SegmentError error;
+  error.length = length;
+  for (std::size_t first = 0; first < pairs.size(); first += kStep) {
+    const auto after = std::upper_bound(way.begin() + long(first), way.end(), way[first] + length);
+    if (after == way.end()) break;
+    const PosePair &a = pairs[first], &b = pairs[std::size_t(after - way.begin())];
+    const Pose difference = (a.estimate.inverse() * b.estimate).inverse() * (a.truth.inverse() * b.truth);
+    error.trans_percent += 100 * norm(difference.translation) / length;
+    error.rot_deg_per_m += angle_deg(difference.rotation) / length;
+    ++error.segments;
+  }
+  if (error.segments == 0) return error;
+  error.trans_percent /= error.segments;
+  error.rot_deg_per_m /= error.segments;
+  return error;
+}
+
+std::vector<AlignedPair> align_pairs(const std::vector<PosePair>& pairs) {
+  const Similarity aligned = align(pairs, false);
+  std::vector<AlignedPair> all;
+  for (const PosePair& pair : pairs) all.push_back({pair.stamp, aligned * pair.estimate.translation, pair.truth.translation});
+  return all;
 }
 
 TrajectoryError calc_trajectory_error(const std::vector<PosePair>& pairs, int delta) {

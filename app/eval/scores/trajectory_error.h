@@ -9,6 +9,7 @@ namespace rubble {
 
 struct PosePair {
   Pose estimate, truth;  // world_from_body of the same instant; unit: m
+  double stamp = 0;      // of the truth; unit: s
 };
 
 // Each pose of the shorter trajectory with the one of the longer that is nearest in time, if that
@@ -43,6 +44,23 @@ struct RelativeError {
 
 // delta: >= 1, fewer than the pairs.
 RelativeError calc_relative_error(const std::vector<PosePair>& pairs, int delta);
+
+// The errors of KITTI's odometry benchmark: of segments of the truth that are `length` long, from every tenth pose on,
+// the relative error divided by the length, on average (Geiger, Lenz and Urtasun 2012, its development kit).
+struct SegmentError {
+  double length = 0;         // unit: m
+  int segments = 0;          // that were found; 0: the track is shorter, and the errors are 0
+  double trans_percent = 0;  // unit: %
+  double rot_deg_per_m = 0;  // unit: degree/m
+};
+SegmentError calc_segment_error(const std::vector<PosePair>& pairs, double length);
+
+// A pair after the rigid alignment of all.
+struct AlignedPair {
+  double stamp = 0;      // unit: s
+  Vec3 estimate, truth;  // unit: m
+};
+std::vector<AlignedPair> align_pairs(const std::vector<PosePair>& pairs);
 
 // delta: >= 1, fewer than the pairs. Throws InputError: fewer than 3 pairs, or positions all on one
 // line, which leave the alignment undetermined.

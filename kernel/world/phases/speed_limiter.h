@@ -12,7 +12,8 @@ class SpeedLimiter {
   SpeedLimiter(const WorldData& data, const WorldSettings& settings) : data_(data), settings_(settings) {}
 
   // A piece squeezed out from under a heavy one must not shoot away: sideways and upwards it may become hardly
-  // faster in one step than the points which touch it were before. Nor must what lies on the ground be shot
+  // faster in one step than the points which touch it were before. What is pushed ahead may: along the velocity of the
+  // fastest of these points it may become as fast. Nor must what lies on the ground be shot
   // through it: it moves down no faster than its own points or what strikes it did.
   void clamp_ejections(const StepPairs& step, StepMotions& motions);
   // What rolls is pushed where it is, however fast it turns: fills StepMotions::rolls.
@@ -22,8 +23,10 @@ class SpeedLimiter {
   float calc_lateness() const;
   // The share of its spin that a piece keeps in a step of a verification that lasts. spin: its length.
   float keep_of_late_spin(const Body& body, const Vec3f& angular, float spin, float lateness) const;
+  // Notes how fast pieces are struck in this step, for calc_most_spin().
+  void find_strikes(const StepPairs& step, const StepMotions& motions);
   // How fast contacts may turn a piece in this step; unit: rad/s.
-  static float calc_most_spin(const Body& body);
+  float calc_most_spin(std::int32_t body) const;
 
  private:
   void return_momentum(std::size_t piece, const Vec3f& speed, StepMotions& motions) const;
@@ -31,6 +34,8 @@ class SpeedLimiter {
   const WorldData& data_;
   const WorldSettings& settings_;
   std::vector<float> fastest_;           // by body: of the points that touch it; unit: m/s
+  std::vector<Vec3f> strikers_;          // by body: velocity of that point; unit: m/s
+  std::vector<float> strikes_;           // by body: closing speed of a contact at most; empty: nothing spins fast; unit: m/s
   std::vector<std::int32_t> neighbour_;  // by body: the only one that touches it
 };
 

@@ -1,0 +1,79 @@
+"""What breaks mapping, against metres into the void: light that the camera gets, in keypoints and true matches, and the frames
+that a model has."""
+import matplotlib
+import numpy as np
+
+import flights
+import plan
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (after the choice of the backend)
+
+SHOWN = ["dark", "lamp_5", "lamp_15", "lamp_200", "night_15"]
+COLOURS = ["#222222", "#a6761d", "#e6550d", "#fdae6b", "#3182bd"]
+ON_THE_WAY = ["dark", "lamp_15", "lamp_200", "night_15"]  # of the sheet of pictures
+WIDTH = 1.0  # of a bin; unit: m
+
+
+def binned(frames, value):
+    """Centres of bins, and the mean of the value in each."""
+    into = np.array([f["into"] for f in frames])
+    values = np.array([value(f) for f in frames], float)
+    good = np.isfinite(values)
+    numbers = np.floor(into / WIDTH).astype(int)
+    chosen = [n for n in sorted(set(numbers)) if (good & (numbers == n)).any()]
+    return [(n + 0.5) * WIDTH for n in chosen], [values[good & (numbers == n)].mean() for n in chosen]
+
+
+PANELS = [
+    ("keypoints a megapixel", lambda f: f["keypoints_mp"], True),
+    ("true matches with the next frame, a megapixel", lambda f: f.get("matches_mp", np.nan), True),
+    ("frames that a model has, %", lambda f: 0.0 if f["model"] is None else 100.0, False),
+]
+
+
+def draw(found, title, path):
+    figure, axes = plt.subplots(3, 1, figsize=(9, 11), sharex=True)
+    titles = {r.name: r.title for r in plan.ROWS}
+    for name, colour in zip(SHOWN, COLOURS):
+        results = found.get((name, "colmap"))
+        if not results:
+            continue
+        frames = [f for r in results.values() for f in r["frames"]]
+        for (label, value, log), place in zip(PANELS, axes):
+            x, y = binned(frames, value)
+            place.plot(x, np.maximum(y, 0.8) if log else y, "o-", color=colour, ms=4, lw=1.6, label=titles[name])
+    for (label, _, log), place in zip(PANELS, axes):
+        place.set_ylabel(label)
+        if log:
+            place.set_yscale("log")
+        place.axvline(0, color="#999999", lw=1)
+        place.grid(alpha=0.3)
+    axes[0].legend(fontsize=9)
+    axes[0].set_title("COLMAP 3.8, " + title, fontsize=10)
+    axes[-1].set_xlabel("metres into the void (0: its entrance), on the way in and on the way out")
+    figure.tight_layout()
+    figure.savefig(path, dpi=90)
+
+
+def draw_way(flown, path):
+    """What the camera sees on its way in, without a lamp and with lamps: the same places side by side."""
+    sheets = {}
+    for row in plan.ROWS:
+        if row.name in ON_THE_WAY:
+            files = flights.shown_frames(flown.work.out / "flight" / flown.key(1, row) / "run")
+            if files:
+                sheets[row] = [plt.imread(file) for file in files]
+    if not sheets:
+        return
+    height, width = next(iter(sheets.values()))[0].shape[:2]
+    columns = len(flights.SHOWN)
+    figure, axes = plt.subplots(len(sheets), columns, figsize=(3.2 * columns, 3.2 * height / width * len(sheets)), squeeze=False)
+    for (row, pictures), line in zip(sheets.items(), axes):
+        for place, picture in zip(line, pictures):
+            place.imshow(picture)
+            place.axis("off")
+        line[0].text(0.03, 0.05, row.title, color="white", fontsize=10, transform=line[0].transAxes,
+                     bbox={"facecolor": "black", "alpha": 0.6, "pad": 2})
+    figure.subplots_adjust(0, 0, 1, 1, 0.01, 0.015)
+    figure.savefig(path, dpi=100, pil_kwargs={"quality": 88})

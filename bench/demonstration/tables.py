@@ -1,0 +1,118 @@
+"""The tables of docs/explanation/sfm.md, from all results that are there, of the program as it is now."""
+import statistics
+import sys
+
+import flights
+import judges
+import plan
+import work as stages
+
+sys.path.insert(0, str(stages.ROOT / "tools"))
+import document_marks  # noqa: E402
+
+PAGE = stages.ROOT / "docs/explanation/sfm.md"
+FIGURE = stages.ROOT / "docs/pictures/demonstration.png"
+WAY = stages.ROOT / "docs/pictures/demonstration_way.jpg"
+COLUMNS = [("frames", 0), ("segments", 1), ("on_track_percent", 1), ("points", 0), ("ate_rmse_m", 2)]
+INTO = (-3.0, 0.0, 2.0, 4.0, 6.0, 8.0, 99.0)  # borders of the figure's bins: metres into the void
+
+
+def collect(work, size):
+    """{(row, judge): {seed: result}}"""
+    flown, judging = flights.Flights(work, plan.SIZES[size]), judges.Judges(work)
+    found = {}
+    for seed, row in plan.order(range(1, 6), []):
+        for judge in plan.JUDGES:
+            result = judging.find(flown.key(seed, row), row, judge)
+            if result:
+                found.setdefault((row.name, judge), {})[seed] = result
+    return found
+
+
+def cell(values, digits):
+    """The mean, and the least and the most where there are several; a dash for what could not be determined."""
+    values = [v for v in values if v is not None]
+    if not values:
+        return "-"
+    number = "{:,.%df}" % digits
+    mean = number.format(statistics.mean(values))
+    return mean if len(values) == 1 else "%s (%s to %s)" % (mean, number.format(min(values)), number.format(max(values)))
+
+
+def cells(results):
+    """As the published table, and the position error; then what the frames deep inside offered."""
+    scores = [r["score"] for r in results.values()]
+    row = [cell([s[key] for s in scores], digits) for key, digits in COLUMNS]
+    for key in ("keypoints_mp", "matches_mp"):
+        row.append(cell([mean_of(r["frames"], key) for r in results.values()], 0))
+    return row
+
+
+def mean_of(frames, key, low=None, high=None):
+    values = [f[key] for f in frames if key in f and (low is None or f["into"] is not None and low <= f["into"] < high)]
+    return statistics.mean(values) if values else None
+
+
+HEADINGS = ["images", "segments", "on track, %", "points", "ATE, m", "keypoints / MP", "true matches / MP"]
+
+
+def markdown(headings, rows):
+    lines = ["| " + " | ".join(headings) + " |", "|" + "---|" * len(headings)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
+
+
+def paper_table(found, sizes):
+    rows = []
+    for name, (images, segments, percent, points) in plan.PUBLISHED.items():
+        title = next(r.title for r in plan.ROWS if r.name == name)
+        rows.append([title, "published", "", str(images), str(segments), "%.1f" % percent, format(points, ",")] + ["", "", ""])
+        for size in sizes:
+            for judge in plan.JUDGES:
+                results = found[size].get((name, judge))
+                if results:
+                    rows.append(["", "%s, %s" % (size, judge), ", ".join(map(str, sorted(results)))] + cells(results))
+    return markdown(["flight", "", "seeds"] + HEADINGS, rows)
+
+
+def factor_table(found):
+    rows = []
+    for row in plan.ROWS:
+        for judge in plan.JUDGES:
+            results = found.get((row.name, judge))
+            if results:
+                rows.append([row.group, row.title, judge, ", ".join(map(str, sorted(results)))] + cells(results))
+    return markdown(["factor", "flight", "judge", "seeds"] + HEADINGS, rows)
+
+
+def depth_table(found):
+    rows = []
+    for row in plan.ROWS:
+        results = found.get((row.name, "colmap"))
+        if not results or row.name == "exterior":
+            continue
+        frames = [f for r in results.values() for f in r["frames"]]
+        means = [[mean_of(frames, key, low, high) for low, high in zip(INTO, INTO[1:])] for key in ("keypoints_mp", "matches_mp")]
+        rows.append([row.title] + ["-" if k is None else "%.0f / %s" % (k, "-" if m is None else "%.0f" % m) for k, m in zip(*means)])
+    names = ["outside"] + ["%g to %g m" % pair for pair in zip(INTO[1:], INTO[2:-1])] + ["deeper than %g m" % INTO[-2]]
+    return markdown(["flight"] + names, rows)
+
+
+def show(work, size):
+    print(factor_table(collect(work, size)))
+
+
+def write(work):
+    found = {size: collect(work, size) for size in plan.SIZES}
+    sizes = [size for size in plan.SIZES if found[size]]
+    if not sizes:
+        raise SystemExit("there are no results of this program in %s" % work.out)
+    parts = {"paper": paper_table(found, sizes), "factors": "", "depths": ""}
+    for size in sizes:
+        title = "%s: %s\n\n" % (size, plan.SIZES[size].title)
+        parts["factors"] += title + factor_table(found[size]) + "\n"
+        parts["depths"] += title + depth_table(found[size]) + "\n"
+    for name, text in parts.items():
+        document_marks.write_between_marks(PAGE, name, text)
+    import figure
+    figure.draw(found[sizes[0]], plan.SIZES[sizes[0]].title, FIGURE)
+    figure.draw_way(flights.Flights(work, plan.SIZES[sizes[0]]), WAY)

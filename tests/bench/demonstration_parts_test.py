@@ -1,0 +1,89 @@
+#!/usr/bin/python3
+"""The parts of bench/demonstration that need neither the program nor COLMAP, against known answers."""
+import pathlib
+import sys
+import tempfile
+
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent.parent / "bench" / "demonstration"))
+import carriers  # noqa: E402
+import matches  # noqa: E402
+import plan  # noqa: E402
+import work  # noqa: E402
+
+K = np.array([[500, 0, 320], [0, 500, 240], [0, 0, 1.0]])
+
+
+def seen(points, pose):
+    r, t = pose
+    p = (points @ r.T + t) @ K.T
+    return p[:, :2] / p[:, 2:]
+
+
+def check_true_matches():
+    """Of points seen from two places all agree with the true motion, few with another, and none that were mixed up."""
+    random = np.random.default_rng(1)
+    points = random.uniform([-2, -1.5, 3], [2, 1.5, 8], (400, 3))
+    angle = 0.1
+    turn = np.array([[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]])
+    first, second, other = (np.eye(3), np.zeros(3)), (turn, np.array([0.3, 0.05, 0.1])), (turn.T, np.array([0.3, 0.05, 0.1]))
+    a, b = seen(points, first), seen(points, second)
+    assert matches.agree(a, b, first, second, K) == 400
+    assert matches.agree(a, b + [0, 1.0], first, second, K) > 390  # within two pixels of its line
+    assert matches.agree(a, b, first, other, K) < 40
+    assert matches.agree(a, b[random.permutation(400)], first, second, K) < 40
+
+
+def check_carriers():
+    random = np.random.default_rng(2)
+    for q in random.normal(size=(50, 4)):
+        q /= np.linalg.norm(q)
+        back = carriers.quaternion(carriers.matrix(q))
+        assert min(abs(back - q).max(), abs(back + q).max()) < 1e-9
+    with tempfile.TemporaryDirectory() as folder:
+        planned = pathlib.Path(folder)
+        (planned / "flight.json").write_text('{"voids": [{}, {"way_in_m": 4.0}]}')
+        times = np.arange(0, 20.001, 0.05)  # 10 m in and 10 m out at 1 m/s: 6 m before the void
+        (planned / "groundtruth.txt").write_text("".join("%.2f %.3f 0 1 0 0 0 1\n" % (t, 10 - abs(10 - t)) for t in times))
+        still, held = (np.array([line.split() for line in carriers.move(None, planned, who).splitlines()], float)
+                       for who in ("spline", "hand_held"))
+    assert abs(still[0, 0]) < 1e-9 and abs(still[-1, 0] - 12) < 0.1  # from two metres before the void
+    assert abs(still[0, 1] - 4) < 0.05 and abs(still[:, 1].max() - 10) < 0.05 and np.allclose(abs(still[:, 7]), 1)
+    into = carriers.metres_into(still[:, 1:4], 4.0)
+    assert abs(into[0] + 2) < 0.05 and abs(into.max() - 4) < 0.05 and abs(into[-1] + 2) < 0.05
+    apart = np.linalg.norm(held[:, 1:4] - still[:, 1:4], axis=1)
+    assert 0.01 < apart.mean() < 0.06 and apart.max() < 0.1, apart.max()
+    step = np.linalg.norm(np.diff(held[:, 1:4], axis=0), axis=1)
+    assert step.max() < 0.03  # it does not jump
+
+
+def check_stages():
+    with tempfile.TemporaryDirectory() as folder:
+        made = []
+        jobs = work.Work(folder, __file__, hours=1)
+        first = jobs.stage("x", {"a": 1}, made.append, "one")
+        assert jobs.stage("x", {"a": 1}, made.append, "one") == first and len(made) == 1
+        assert jobs.stage("x", {"a": 2}, made.append, "two") != first and len(made) == 2
+        late = work.Work(folder, __file__, hours=-1)
+        assert late.stage("x", {"a": 1}, made.append, "one") == first  # what is there is there
+        try:
+            late.stage("x", {"a": 3}, made.append, "three")
+            raise AssertionError("a stage began after the time")
+        except work.OutOfTime:
+            assert len(made) == 2
+
+
+def check_plan():
+    names = [row.name for row in plan.ROWS]
+    assert len(names) == len(set(names))
+    order = plan.order(range(1, 6), [])
+    assert [row.name for seed, row in order[:len(names)]] == names  # every row of the first seed comes first
+    assert sum(seed == 5 for seed, _ in order) == sum(row.seeds == 5 for row in plan.ROWS)
+
+
+if __name__ == "__main__":
+    check_true_matches()
+    check_carriers()
+    check_stages()
+    check_plan()

@@ -1,6 +1,9 @@
 """rubble/_core.pyi has the names of the module, and the package says that it is typed."""
 import ast
+import importlib
 import os
+import re
+import tomllib
 import unittest
 
 import rubble
@@ -36,6 +39,19 @@ class Stubs(unittest.TestCase):
         self.assertTrue(os.path.exists(os.path.join(HERE, "py.typed")))
         for name in rubble.__all__:
             self.assertTrue(hasattr(rubble, name), name)
+
+    def test_the_metadata_name_what_is_there(self):
+        with open("pyproject.toml", "rb") as file:
+            about = tomllib.load(file)
+        with open(about["tool"]["dynamic-metadata"][0]["input"]) as file:
+            found = re.search(about["tool"]["dynamic-metadata"][0]["regex"], file.read())
+        self.assertEqual(found["value"], rubble.__version__)
+        for place in (*about["project"]["scripts"].values(), *about["project"]["entry-points"]["gymnasium.envs"].values()):
+            module, name = place.split(":")
+            self.assertTrue(callable(getattr(importlib.import_module(module), name)), place)
+        with open("python/requirements.txt") as file:
+            locked = re.search(r"^nanobind==\S+", file.read(), re.M).group()
+        self.assertIn(locked, about["build-system"]["requires"])
 
 
 if __name__ == "__main__":

@@ -50,8 +50,8 @@ Settled settle_here(const ScratchFolder& folder) {
   RunRequest request;
   request.mission = folder / "m.lua", request.options.quiet = true, request.options.threads = 2;
   RunContext context(request.options);
-  Settled settled{resolve_mission(request, RunKind::settle, device), {}};
-  settled.pile = settle_in_memory(settled.mission, device, [] { return true; }).state;
+  Settled settled{resolve_mission(request, RunKind::settle, context), {}};
+  settled.pile = settle_in_memory(settled.mission, context, [] { return true; }).state;
   return settled;
 }
 

@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo demonstration pictures film test release-check check test-nightly test-asan test-tsan test-files fuzz mutants faults pairs verification determinism platforms format clean
+.PHONY: help packages program-packages build all package package-arm64 image archive wheel install site asset-maker live demo demonstration pictures film test release-check check test-nightly test-asan test-tsan test-files fuzz mutants faults pairs verification determinism platforms format clean
 
 PROGRAM := build/release/rubble
 # Tests have one thread each, so as many run at once as there are processors.
@@ -21,6 +21,7 @@ help:
 	@echo "make package-arm64  the same for arm64, cross-compiled and tried under an emulator (docs/how_to/install.md)"
 	@echo "make image      make a container image: build/package/rubble_*_oci.tar (needs root)"
 	@echo "make archive    make a self-extracting archive for other distributions: build/package/rubble-*.run"
+	@echo "make wheel      make Python wheels: build/package/rubble_sim-*.whl; PYTHONS=\"python3.11 python3.12\" (docs/reference/python.md)"
 	@echo "make site       make a site of the documents: build/site/index.html"
 	@echo "make live       build everything, with publishing over ROS 1 and ROS 2 (docs/how_to/live.md)"
 	@echo "make release-check  fail where a table of the documents was measured from older sources"
@@ -79,6 +80,11 @@ image: package
 archive: build
 	@tools/install_packages.sh tools/packages-nightly.txt
 	tools/package/make_archive.sh build/release build/package
+
+# One for Python 3.11, and one for all newer ones.
+PYTHONS = $(shell tools/wheel/find_pythons.py)
+wheel: packages build
+	tools/wheel/make_wheels.sh build/release build/package $(PYTHONS)
 
 site:
 	@tools/install_packages.sh tools/packages-site.txt

@@ -21,7 +21,7 @@
 #include "kernel/base/system/disk_cache.h"
 #include "kernel/settling/generator.h"
 #include "kernel/settling/settle.h"
-#include "render/gl/gl_context.h"
+#include "render/devices/software/software_device.h"
 #include "render/sensors/camera.h"
 #include "scripting/mission.h"
 #include "scripting/trajectory/trajectory.h"
@@ -60,7 +60,7 @@ class Piles {
   std::map<std::string, PileState> piles_;
 };
 
-Frame take(GlContext& context, const GalleryPicture& picture, Piles& piles, int threads) {
+Frame take(Device& device, const GalleryPicture& picture, Piles& piles, int threads) {
   MissionOptions changes;
   changes.overrides = picture.set;
   const Mission mission = load_mission(picture.mission, changes);
@@ -72,7 +72,7 @@ Frame take(GlContext& context, const GalleryPicture& picture, Piles& piles, int 
   options.colour = scenario.cameras.front().camera.colour;
   PileState pile = piles.of(picture, scenario, assets);
   lay_surroundings(scenario, assets, pile);
-  Renderer renderer(context, build_scene(scenario, assets, pile),
+  Renderer renderer(device, build_scene(scenario, assets, pile),
                     options);
   const MountedCamera& mounted = scenario.cameras.front();
   CameraSpec spec = build_camera(mounted, scenario.seed, threads);
@@ -103,7 +103,7 @@ ExitCode draw(const Request& request) {
   const Gallery gallery = load_gallery(request.list);
   const fs::path folder = fs::path(request.page).parent_path() / "pictures/gallery";
   fs::create_directories(folder);
-  GlContext context({-1, threads});
+  SoftwareDevice device;
   Piles piles(threads);
   int drawn = 0;
   for (const GallerySection& section : gallery.sections) {
@@ -113,7 +113,7 @@ ExitCode draw(const Request& request) {
       ++drawn;
       std::fprintf(stderr, "gallery: %s\n", picture.name.c_str());
       write_jpeg((folder / (picture.name + ".jpg")).string(),
-                 channel_picture(picture.channel, take(context, picture, piles, threads)));
+                 channel_picture(picture.channel, take(device, picture, piles, threads)));
     }
   }
   if (drawn == 0) throw RunError(request.list + " has no picture of that name or section");

@@ -16,7 +16,7 @@
 #include "bench/render_views.h"
 #include "kernel/base/system/thread_count.h"
 #include "kernel/base/system/disk_cache.h"
-#include "render/gl/gl_context.h"
+#include "render/devices/make_device.h"
 #include "render/renderer.h"
 
 namespace rubble {
@@ -29,13 +29,13 @@ struct Request {
   std::vector<int> sizes = {1024, 512};
   int frames = 30;
   int threads = 0;
-  int device = -1;
+  DeviceKind device = DeviceKind::software;
+  int gl_device = -1;
   bool csv = false, split = false;
   std::string pictures;
   int fines = 0;
   bool surroundings = false;
   bool draft = false;
-  DrawnBy shading = DrawnBy::automatic;
 };
 
 // What goes on from view to view.
@@ -132,7 +132,7 @@ Series fly(Renderer& renderer, const BenchView& view, int size, const Request& r
   return series;
 }
 
-void print_head(const Request& request, const GlContext& context, double load_ms, double ready_ms) {
+void print_head(const Request& request, const Device& device, double load_ms, double ready_ms) {
   if (request.csv) {
     std::printf("view,size,frames,median_ms,min_ms,fps%s\n",
                 request.split ? ",cpu_ms,visibility_ms,resolve_ms,read_ms,finish_ms,triangles,"
@@ -140,8 +140,8 @@ void print_head(const Request& request, const GlContext& context, double load_ms
                               : "");
     return;
   }
-  std::printf("%s, %s; scene loaded in %.2f s, lit in %.2f s\n", context.info().renderer.c_str(),
-              context.info().egl_device.c_str(), load_ms / 1000, ready_ms / 1000);
+  std::printf("%s: %s; scene loaded in %.2f s, lit in %.2f s\n", device.info().name.c_str(),
+              device.info().about.c_str(), load_ms / 1000, ready_ms / 1000);
   std::printf("%-13s %5s %8s %8s %8s %7s %13s %13s %9s %11s %10s\n", "view", "size", "median",
               "min", "CPU", "frame/s", "visibility", "resolve", "read", "finish", "triangles");
 }
@@ -159,15 +159,15 @@ ExitCode bench(const Request& request) {
                                          std::fprintf(stderr, "render_bench: %s\n", line);
                                        }, request.fines, request.surroundings);
   const double load_ms = since(session.start);
-  GlContext context({request.device, threads});
+  const std::unique_ptr<Device> device =
+      make_device({request.gl_device >= 0 ? DeviceKind::gl : request.device, request.gl_device, threads});
   RenderOptions options;
   if (request.draft) options.colour.quality = RenderQuality::draft;
-  options.shading = request.shading;
   options.threads = threads;
   options.cache_folder = DiskCache::usual_folder();
   const auto light = Clock::now();
-  Renderer renderer(context, scene, options);
-  print_head(request, context, load_ms, since(light));
+  Renderer renderer(*device, scene, options);
+  print_head(request, *device, load_ms, since(light));
   for (const BenchView& view : bench_views()) {
     const auto& wanted = request.views;
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), view.name) == wanted.end())
@@ -201,7 +201,10 @@ ExitCode run(int argc, char** argv) {
   app.add_option("--threads", request.threads, "0: all processors")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  app.add_option("--gl-device", request.device, "Number of the EGL device; -1: the first that works")
+  const std::map<std::string, DeviceKind> devices{{"software", DeviceKind::software}, {"gl", DeviceKind::gl}};
+  app.add_option("--device", request.device, "What draws; software if not given")
+      ->transform(CLI::CheckedTransformer(devices));
+  app.add_option("--gl-device", request.gl_device, "Number of the EGL device that draws; -1: the first that works, if gl draws")
       ->capture_default_str();
   app.add_option("--pictures", request.pictures, "Also write each view's last frame, PREFIXview.ppm");
   app.add_option("--fines", request.fines, "Loose pieces that are strewn over the pile first (docs/explanation/fines.md)")
@@ -209,9 +212,6 @@ ExitCode run(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--surroundings", request.surroundings, "With a street about the pile (docs/explanation/surroundings.md)");
   app.add_flag("--draft", request.draft, "With camera.quality = draft");
-  const std::map<std::string, DrawnBy> drawn_by{{"device", DrawnBy::device}, {"processor", DrawnBy::processor}};
-  app.add_option("--shading", request.shading, "Who shades the pixels; as the program chooses if not given")
-      ->transform(CLI::CheckedTransformer(drawn_by));
   app.add_flag("--csv", request.csv, "Lines view,size,frames,median_ms,min_ms,fps");
   app.add_flag("--split", request.split,
                "With --csv also processor time, each pass (elapsed/processor), the first frame "

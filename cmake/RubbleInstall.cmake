@@ -54,15 +54,15 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-# What dpkg-shlibdeps cannot see: libEGL is opened at run time, and something must draw without a GPU.
+# What dpkg-shlibdeps cannot see: libEGL and SDL are opened at run time, where the device `gl` draws and a window is shown.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS
-  "libegl1, libegl-mesa0, libgl1-mesa-dri, libgl1")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libsdl2-2.0-0")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "libegl1, libegl-mesa0, libgl1-mesa-dri, libgl1")
 # It knows the libraries of this machine alone: tools/package_arm64.sh says what those of another are in.
 set(RUBBLE_PACKAGE_DEPENDS "" CACHE STRING "Packages of the program's libraries, instead of what dpkg-shlibdeps finds")
 if(RUBBLE_PACKAGE_DEPENDS)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS OFF)
-  string(PREPEND CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "${RUBBLE_PACKAGE_DEPENDS}, ")
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "${RUBBLE_PACKAGE_DEPENDS}")
 endif()
 if(CMAKE_CROSSCOMPILING AND CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
   set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE arm64)

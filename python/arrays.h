@@ -1,12 +1,20 @@
 // Between numpy and the program's own types. Internal to python/.
 #pragma once
 
-#include <pybind11/numpy.h>
-#include <pybind11/pybind11.h>
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/set.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernel/base/error.h"
@@ -14,13 +22,34 @@
 
 namespace rubble::python {
 
-namespace py = pybind11;
+namespace nb = nanobind;
 
-using DoubleArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Size = std::ptrdiff_t;
+using Shape = std::vector<Size>;
+
+// What an argument gives as an array of double: an array as it is, everything else as numpy converts it.
+class DoubleArray {
+ public:
+  DoubleArray() = default;
+  // Throws nb::python_error where numpy finds no numbers.
+  explicit DoubleArray(nb::handle given) {
+    if (nb::try_cast(given, values_, false)) return;
+    const nb::object made = nb::module_::import_("numpy").attr("require")(given, "float64", "CA");
+    values_ = nb::cast<Values>(made, false);
+  }
+  Size ndim() const { return Size(values_.ndim()); }
+  Size shape(Size axis) const { return Size(values_.shape(std::size_t(axis))); }
+  Size size() const { return Size(values_.size()); }
+  const double* data() const { return values_.data(); }
+
+ private:
+  using Values = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
+  Values values_;
+};
 
 // Throws InputError, keyed by the argument's name, for another shape and for what is not finite.
 inline void expect_finite(const DoubleArray& values, const char* name) {
-  for (py::ssize_t i = 0; i < values.size(); ++i)
+  for (Size i = 0; i < values.size(); ++i)
     if (!std::isfinite(values.data()[i]))
       throw InputError({"", 0, name, "not a finite number", "finite numbers",
                         "nan or inf at element " + std::to_string(i), ""});
@@ -28,7 +57,7 @@ inline void expect_finite(const DoubleArray& values, const char* name) {
 
 inline std::string shape_of(const DoubleArray& values) {
   std::string text = "(";
-  for (py::ssize_t i = 0; i < values.ndim(); ++i) text += (i ? ", " : "") + std::to_string(values.shape(i));
+  for (Size i = 0; i < values.ndim(); ++i) text += (i ? ", " : "") + std::to_string(values.shape(i));
   return text + ")";
 }
 
@@ -56,40 +85,41 @@ inline Pose to_pose(const DoubleArray& values, const char* name) {
   return {normalized(q), {v[0], v[1], v[2]}};
 }
 
-// A whole number of 64 bits without a sign. Throws InputError for anything else, where pybind11 would list signatures.
-inline std::uint64_t to_seed(const py::object& value) {
-  const py::object whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+// A whole number of 64 bits without a sign. Throws InputError for anything else, where nanobind would list signatures.
+inline std::uint64_t to_seed(const nb::object& value) {
+  const nb::object whole = nb::steal<nb::object>(PyNumber_Index(value.ptr()));
   const std::uint64_t seed = whole ? PyLong_AsUnsignedLongLong(whole.ptr()) : 0;
   if (whole && !PyErr_Occurred()) return seed;
   PyErr_Clear();
   throw InputError({"", 0, "seed", "out of range", "a whole number from 0 to 18446744073709551615",
-                    py::repr(value).cast<std::string>(), ""});
+                    nb::repr(value).c_str(), ""});
 }
 
-inline std::vector<py::ssize_t> c_strides(const std::vector<py::ssize_t>& shape, std::size_t item) {
-  std::vector<py::ssize_t> strides(shape.size());
-  py::ssize_t stride = py::ssize_t(item);
-  for (std::size_t i = shape.size(); i-- > 0;) {
-    strides[i] = stride;
-    stride *= shape[i];
-  }
-  return strides;
-}
-
-// An array to be filled. Every array of the module is made here or by take_vector(), with its strides: pybind11 before
-// 2.12 reads the size of an item of numpy 2 as 0, and makes arrays all of whose elements are one. A test looks for
-// arrays that are made elsewhere.
+// An array of numpy in C order that owns its values. Every array of the module is made here; a test looks for arrays that
+// are made elsewhere.
 template <typename T>
-py::array_t<T> make_array(const std::vector<py::ssize_t>& shape) {
-  return py::array_t<T>(shape, c_strides(shape, sizeof(T)));
+using Array = nb::ndarray<nb::numpy, T, nb::c_contig>;
+
+// The memory of a vector, which the array owns: nothing is copied. T: of the elements that the array shows.
+template <typename T, typename Kept>
+Array<T> take_as(std::vector<Kept>&& values, const Shape& shape) {
+  auto* const kept = new std::vector<Kept>(std::move(values));
+  const nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<Kept>*>(p); });
+  const std::vector<std::size_t> sizes(shape.begin(), shape.end());
+  return Array<T>(kept->data(), sizes.size(), sizes.data(), owner);
 }
 
-// An array that owns the vector it was made from: nothing is copied.
 template <typename T>
-py::array_t<T> take_vector(std::vector<T>&& values, const std::vector<py::ssize_t>& shape) {
-  auto* const kept = new std::vector<T>(std::move(values));
-  const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<T>*>(p); });
-  return py::array_t<T>(shape, c_strides(shape, sizeof(T)), kept->data(), owner);
+Array<T> take_vector(std::vector<T>&& values, const Shape& shape) {
+  return take_as<T>(std::move(values), shape);
+}
+
+// An array to be filled; at first zeros.
+template <typename T>
+Array<T> make_array(const Shape& shape) {
+  Size count = 1;
+  for (const Size n : shape) count *= n;
+  return take_vector(std::vector<T>(std::size_t(count)), shape);
 }
 
 inline void put_pose(const Pose& pose, double* to) {
@@ -97,16 +127,29 @@ inline void put_pose(const Pose& pose, double* to) {
   for (const double value : {t.x, t.y, t.z, q.w, q.x, q.y, q.z}) *to++ = value;
 }
 
-inline py::array_t<double> from_pose(const Pose& pose) {
-  py::array_t<double> out = make_array<double>({7});
-  put_pose(pose, out.mutable_data());
+inline Array<double> from_pose(const Pose& pose) {
+  Array<double> out = make_array<double>({7});
+  put_pose(pose, out.data());
   return out;
 }
 
-inline py::array_t<double> from_vector(const Vec3& v) {
-  py::array_t<double> out = make_array<double>({3});
-  for (int i = 0; i < 3; ++i) out.mutable_data()[i] = v[i];
-  return out;
-}
+inline Array<double> from_vector(const Vec3& v) { return take_vector<double>({v[0], v[1], v[2]}, {3}); }
 
 }  // namespace rubble::python
+
+// A DoubleArray as an argument. What numpy cannot convert is no match, which Python reports as a TypeError.
+namespace nanobind::detail {
+template <>
+struct type_caster<rubble::python::DoubleArray> {
+  NB_TYPE_CASTER(rubble::python::DoubleArray, const_name("numpy.typing.ArrayLike"))
+  bool from_python(handle given, std::uint8_t, cleanup_list*) noexcept {
+    try {
+      value = rubble::python::DoubleArray(given);
+      return true;
+    } catch (...) {
+      PyErr_Clear();
+      return false;
+    }
+  }
+};
+}  // namespace nanobind::detail

@@ -57,13 +57,13 @@ class Explorer {
   std::size_t count() const { return seen_.wanted(); }
 
   // (picture, clearance): depth, at most max_range; how far the middle of the body is from everything.
-  py::tuple look(const DoubleArray& world_from_body) {
+  nb::tuple look(const DoubleArray& world_from_body) {
     const Pose pose = to_pose(world_from_body, "pose");
     const int size = rays_.intrinsics().width;
-    py::array_t<float> picture = make_array<float>({size, size});
-    float* const depth = picture.mutable_data();
+    Array<float> picture = make_array<float>({size, size});
+    float* const depth = picture.data();
     {
-      const py::gil_scoped_release free;
+      const nb::gil_scoped_release free;
       rays_.cast(world_, pose, pool_, depth);
       const float most = float(max_range_);
       for (int i = 0; i < size * size; ++i) depth[i] = std::min(depth[i], most);
@@ -74,26 +74,26 @@ class Explorer {
                            : queries_.clearance(pose.translation, max_range_);
       at_ = pose.translation;
     }
-    return py::make_tuple(picture, clearance_);
+    return nb::make_tuple(picture, clearance_);
   }
 
   // (place, whether all the way is free): as far along `way` as the body has room. from: where it looked last.
-  py::tuple move(const DoubleArray& from_row, const DoubleArray& way_row) {
+  nb::tuple move(const DoubleArray& from_row, const DoubleArray& way_row) {
     const Vec3 from = to_points(from_row, "from").at(0), way = to_points(way_row, "way").at(0);
     const double length = norm(way);
     // Clearance changes by no more than the distance that is gone.
-    if (distance(from, at_) == 0 && clearance_ - length >= radius_) return py::make_tuple(from_vector(from + way), true);
+    if (distance(from, at_) == 0 && clearance_ - length >= radius_) return nb::make_tuple(from_vector(from + way), true);
     const int parts = std::max(1, int(std::ceil(length / (kProbe * radius_))));
     Vec3 place = from;
     for (int i = 1; i <= parts; ++i) {
       const Vec3 next = from + way * (double(i) / parts);
-      if (queries_.clearance(next, 2 * radius_) < radius_) return py::make_tuple(from_vector(place), false);
+      if (queries_.clearance(next, 2 * radius_) < radius_) return nb::make_tuple(from_vector(place), false);
       place = next;
     }
-    return py::make_tuple(from_vector(place), true);
+    return nb::make_tuple(from_vector(place), true);
   }
 
-  py::array_t<double> matrix() const { return camera_matrix(rays_.intrinsics()); }
+  Array<double> matrix() const { return camera_matrix(rays_.intrinsics()); }
 
  private:
   static SeenCells make_seen(const std::vector<Vec3>& centres, double voxel) {
@@ -126,22 +126,22 @@ class Explorer {
 
 }  // namespace
 
-void add_explorer(py::module_& module) {
-  py::class_<ExploredPile, std::shared_ptr<ExploredPile>>(module, "_ExploredPile").def(py::init([](const SharedPile& s) {
-    return std::make_shared<ExploredPile>(*s);
-  }));
-  py::class_<Explorer>(module, "_Explorer")
-      .def(py::init([](const std::shared_ptr<ExploredPile>& pile, const DoubleArray& cells, double voxel, double radius, int size,
-                       double fov_deg, double max_range, int threads) {
-        return std::make_unique<Explorer>(pile, cells, voxel, radius, size, fov_deg, max_range, threads);
-      }))
-      .def("set_camera", &Explorer::set_camera, py::arg("fov_deg"), py::arg("shift_x"), py::arg("shift_y"))
+void add_explorer(nb::module_& module) {
+  nb::class_<ExploredPile>(module, "_ExploredPile").def("__init__", [](ExploredPile* made, const SharedPile& s) {
+    new (made) ExploredPile(*s);
+  });
+  nb::class_<Explorer>(module, "_Explorer")
+      .def("__init__", [](Explorer* made, const std::shared_ptr<ExploredPile>& pile, const DoubleArray& cells, double voxel,
+                          double radius, int size, double fov_deg, double max_range, int threads) {
+        new (made) Explorer(pile, cells, voxel, radius, size, fov_deg, max_range, threads);
+      })
+      .def("set_camera", &Explorer::set_camera, nb::arg("fov_deg"), nb::arg("shift_x"), nb::arg("shift_y"))
       .def("forget", &Explorer::forget)
-      .def("look", &Explorer::look, py::arg("pose"))
-      .def("move", &Explorer::move, py::arg("from_"), py::arg("way"))
-      .def_property_readonly("seen", &Explorer::seen)
-      .def_property_readonly("count", &Explorer::count)
-      .def_property_readonly("K", &Explorer::matrix);
+      .def("look", &Explorer::look, nb::arg("pose"))
+      .def("move", &Explorer::move, nb::arg("from_"), nb::arg("way"))
+      .def_prop_ro("seen", &Explorer::seen)
+      .def_prop_ro("count", &Explorer::count)
+      .def_prop_ro("K", &Explorer::matrix, nb::rv_policy::automatic);
 }
 
 }  // namespace rubble::python

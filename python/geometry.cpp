@@ -16,24 +16,24 @@ Vec3 to_vector(const DoubleArray& values, const char* name) {
   return to_points(values, name).front();
 }
 
-py::array_t<double> pose(const DoubleArray& position, const DoubleArray& rpy) {
+Array<double> pose(const DoubleArray& position, const DoubleArray& rpy) {
   const Vec3 at = to_vector(position, "position"), angles = to_vector(rpy, "rpy");
   return from_pose({portable::quat_from_rpy(angles.x, angles.y, angles.z), at});
 }
 
 // Upright, its X axis towards the target.
-py::array_t<double> look_at(const DoubleArray& position, const DoubleArray& target) {
+Array<double> look_at(const DoubleArray& position, const DoubleArray& target) {
   const Vec3 at = to_vector(position, "position"), d = to_vector(target, "target") - at;
   const double pitch = -portable::atan2(d.z, std::sqrt(d.x * d.x + d.y * d.y));
   return from_pose({portable::quat_from_rpy(0, pitch, portable::atan2(d.y, d.x)), at});
 }
 
-py::array_t<double> compose(const DoubleArray& world_from_a, const DoubleArray& a_from_b) {
+Array<double> compose(const DoubleArray& world_from_a, const DoubleArray& a_from_b) {
   return from_pose(to_pose(world_from_a, "world_from_a") * to_pose(a_from_b, "a_from_b"));
 }
 
 // Vectors of the body as those of the world; back: the other way. One row stays one row.
-py::array_t<double> rotate(const DoubleArray& pose, const DoubleArray& vectors, bool back) {
+Array<double> rotate(const DoubleArray& pose, const DoubleArray& vectors, bool back) {
   const Quat rotation = to_pose(pose, "pose").rotation;
   const Quat by = back ? rotation.conjugate() : rotation;
   std::vector<double> out;
@@ -41,46 +41,46 @@ py::array_t<double> rotate(const DoubleArray& pose, const DoubleArray& vectors, 
     const Vec3 turned = by.rotate(v);
     out.insert(out.end(), {turned.x, turned.y, turned.z});
   }
-  const auto rows = py::ssize_t(out.size() / 3);
+  const auto rows = Size(out.size() / 3);
   return vectors.ndim() == 1 ? take_vector(std::move(out), {3}) : take_vector(std::move(out), {rows, 3});
 }
 
 // Rows of cosine and sine; unit: rad.
-py::array_t<double> directions(const DoubleArray& angles) {
+Array<double> directions(const DoubleArray& angles) {
   expect_finite(angles, "angles");
   std::vector<double> out;
-  for (py::ssize_t i = 0; i < angles.size(); ++i) {
+  for (Size i = 0; i < angles.size(); ++i) {
     const portable::SinCos turned = portable::sincos(angles.data()[i]);
     out.insert(out.end(), {turned.cos, turned.sin});
   }
-  const auto rows = py::ssize_t(out.size() / 2);
+  const auto rows = Size(out.size() / 2);
   return take_vector(std::move(out), {rows, 2});
 }
 
 // Of each row of two or three.
-py::array_t<double> lengths(const DoubleArray& rows) {
+Array<double> lengths(const DoubleArray& rows) {
   if (rows.ndim() != 2) throw InputError({"", 0, "rows", "wrong shape", "(n, k)", shape_of(rows), ""});
   std::vector<double> out;
   const double* value = rows.data();
-  for (py::ssize_t i = 0; i < rows.shape(0); ++i) {
+  for (Size i = 0; i < rows.shape(0); ++i) {
     double sum = 0;
-    for (py::ssize_t k = 0; k < rows.shape(1); ++k, ++value) sum += *value * *value;
+    for (Size k = 0; k < rows.shape(1); ++k, ++value) sum += *value * *value;
     out.push_back(std::sqrt(sum));
   }
-  const auto count = py::ssize_t(out.size());
+  const auto count = Size(out.size());
   return take_vector(std::move(out), {count});
 }
 
 }  // namespace
 
-void add_geometry(py::module_& module) {
-  module.def("_pose", &pose, py::arg("position"), py::arg("rpy"));
-  module.def("_look_at", &look_at, py::arg("position"), py::arg("target"));
-  module.def("_compose", &compose, py::arg("world_from_a"), py::arg("a_from_b"));
-  module.def("_rotate", &rotate, py::arg("pose"), py::arg("vectors"), py::arg("back") = false);
-  module.def("_directions", &directions, py::arg("angles"));
-  module.def("_lengths", &lengths, py::arg("rows"));
-  module.def("_atan2", &portable::atan2, py::arg("y"), py::arg("x"));
+void add_geometry(nb::module_& module) {
+  module.def("_pose", &pose, nb::arg("position"), nb::arg("rpy"));
+  module.def("_look_at", &look_at, nb::arg("position"), nb::arg("target"));
+  module.def("_compose", &compose, nb::arg("world_from_a"), nb::arg("a_from_b"));
+  module.def("_rotate", &rotate, nb::arg("pose"), nb::arg("vectors"), nb::arg("back") = false);
+  module.def("_directions", &directions, nb::arg("angles"));
+  module.def("_lengths", &lengths, nb::arg("rows"));
+  module.def("_atan2", &portable::atan2, nb::arg("y"), nb::arg("x"));
 }
 
 }  // namespace rubble::python

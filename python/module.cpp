@@ -1,11 +1,9 @@
 // The Python module rubble._core; rubble/__init__.py is what users import.
-#include <pybind11/stl.h>
 
 #include "app/support/build_info.h"
 #include "kernel/base/error.h"
 #include "python/parts.h"
 
-namespace py = pybind11;
 
 namespace rubble::python {
 namespace {
@@ -13,16 +11,22 @@ namespace {
 PyObject* input_error = nullptr;  // rubble.InputError, for as long as the interpreter runs
 PyObject* run_error = nullptr;    // rubble.RunError
 
+PyObject* add_error(nb::module_& module, const char* name, PyObject* base) {
+  const nb::object made = nb::steal<nb::object>(PyErr_NewException((std::string("rubble._core.") + name).c_str(), base, nullptr));
+  module.attr(name) = made;
+  return made.inc_ref().ptr();
+}
+
 // With the first mistake's file, line and key, and a list of all.
 void raise(const InputError& error) {
-  py::list all;
+  nb::list all;
   for (const Diagnostic& d : error.diagnostics()) {
-    py::dict one;
+    nb::dict one;
     one["file"] = d.file, one["line"] = d.line, one["key"] = d.key, one["message"] = d.message;
     one["expected"] = d.expected, one["found"] = d.found, one["hint"] = d.hint;
     all.append(one);
   }
-  const py::object made = py::reinterpret_borrow<py::object>(input_error)(error.what());
+  const nb::object made = nb::borrow<nb::object>(input_error)(error.what());
   for (const char* name : {"file", "line", "key"}) made.attr(name) = all[0][name];
   made.attr("diagnostics") = all;
   PyErr_SetObject(input_error, made.ptr());
@@ -30,15 +34,15 @@ void raise(const InputError& error) {
 
 }  // namespace
 
-void add_errors(py::module_& module) {
-  input_error = py::exception<InputError>(module, "InputError", PyExc_ValueError).release().ptr();
-  const py::object mistaken = py::reinterpret_borrow<py::object>(input_error);
+void add_errors(nb::module_& module) {
+  input_error = add_error(module, "InputError", PyExc_ValueError);
+  const nb::object mistaken = nb::borrow<nb::object>(input_error);
   mistaken.attr("file") = "";
   mistaken.attr("key") = "";
   mistaken.attr("line") = 0;
-  mistaken.attr("diagnostics") = py::tuple();
-  run_error = py::exception<RunError>(module, "RunError", PyExc_RuntimeError).release().ptr();
-  py::register_exception_translator([](std::exception_ptr thrown) {
+  mistaken.attr("diagnostics") = nb::make_tuple();
+  run_error = add_error(module, "RunError", PyExc_RuntimeError);
+  nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const InputError& error) {
@@ -51,7 +55,8 @@ void add_errors(py::module_& module) {
 
 }  // namespace rubble::python
 
-PYBIND11_MODULE(_core, module) {
+NB_MODULE(_core, module) {
+  nanobind::set_leak_warnings(false);  // what a program holds until it ends is no fault
   module.doc() = "Rubble's kernel, sensors and robots; see rubble/__init__.py.";
   module.attr("__version__") = rubble::build_info().version;
   rubble::python::add_errors(module);

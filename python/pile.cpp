@@ -1,5 +1,4 @@
 // settle(), open_pile() and the Pile: what lies where, rays, distances, voids.
-#include <pybind11/stl.h>
 
 #include <algorithm>
 #include <mutex>
@@ -16,6 +15,7 @@
 #include "kernel/voids/void_map.h"
 #include "python/arrays.h"
 #include "python/parts.h"
+#include "scripting/mission.h"
 
 namespace rubble::python {
 
@@ -43,7 +43,7 @@ struct Pile {
   }
 };
 
-Pile settle(const std::string& mission, const py::object& seed, const std::vector<std::string>& overrides,
+Pile settle(const std::string& mission, const nb::object& seed, const std::vector<std::string>& overrides,
             int threads) {
   RunRequest request;
   request.mission = mission, request.overrides = overrides;
@@ -95,10 +95,10 @@ Pile vary(const Pile& pile, const std::vector<std::string>& overrides) {
   return {varied, pile.threads, pile.made};
 }
 
-py::array_t<double> poses_of(const Pile& pile) {
+Array<double> poses_of(const Pile& pile) {
   const auto& pieces = pile.settled->state.pieces;
-  py::array_t<double> out = make_array<double>({py::ssize_t(pieces.size()), 7});
-  for (std::size_t i = 0; i < pieces.size(); ++i) put_pose(pieces[i].world_from_body, out.mutable_data() + 7 * i);
+  Array<double> out = make_array<double>({Size(pieces.size()), 7});
+  for (std::size_t i = 0; i < pieces.size(); ++i) put_pose(pieces[i].world_from_body, out.data() + 7 * i);
   return out;
 }
 
@@ -112,7 +112,7 @@ std::vector<std::string> assets_of(const Pile& pile) {
 template <typename Ask>
 void ask_each(const Pile& pile, std::size_t count, const Ask& ask) {
   ThreadPool pool(pile.threads);
-  const py::gil_scoped_release free;
+  const nb::gil_scoped_release free;
   pool.run(int(count), kGrain, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) ask(std::size_t(i));
   });
@@ -122,7 +122,7 @@ void expect_positive(double value, const char* name) {
   if (!(value > 0)) throw InputError({"", 0, name, "out of range", "more than 0", std::to_string(value), ""});
 }
 
-py::dict cast_rays(Pile& pile, const DoubleArray& origins, const DoubleArray& directions, double max_distance) {
+nb::dict cast_rays(Pile& pile, const DoubleArray& origins, const DoubleArray& directions, double max_distance) {
   const std::vector<Vec3> from = to_points(origins, "origins"), along = to_points(directions, "directions");
   expect_positive(max_distance, "max_distance");
   if (from.size() != along.size() && from.size() != 1)
@@ -140,30 +140,30 @@ py::dict cast_rays(Pile& pile, const DoubleArray& origins, const DoubleArray& di
     distance[i] = hit->distance, pieces[i] = hit->piece;
     for (int k = 0; k < 3; ++k) normals[3 * i + std::size_t(k)] = hit->normal[k];
   });
-  py::dict out;
-  out["distance"] = take_vector(std::move(distance), {py::ssize_t(count)});
-  out["normal"] = take_vector(std::move(normals), {py::ssize_t(count), 3});
-  out["piece"] = take_vector(std::move(pieces), {py::ssize_t(count)});
+  nb::dict out;
+  out["distance"] = take_vector(std::move(distance), {Size(count)});
+  out["normal"] = take_vector(std::move(normals), {Size(count), 3});
+  out["piece"] = take_vector(std::move(pieces), {Size(count)});
   return out;
 }
 
-py::array_t<double> clearance(Pile& pile, const DoubleArray& at, double max_distance) {
+Array<double> clearance(Pile& pile, const DoubleArray& at, double max_distance) {
   const std::vector<Vec3> points = to_points(at, "points");
   expect_positive(max_distance, "max_distance");
   const PileQueries& queries = pile.queries();
   std::vector<double> out(points.size());
   ask_each(pile, points.size(), [&](std::size_t i) { out[i] = queries.clearance(points[i], max_distance); });
-  return take_vector(std::move(out), {py::ssize_t(points.size())});
+  return take_vector(std::move(out), {Size(points.size())});
 }
 
-py::dict describe(const Void& v, const VoidSpace& space) {
-  py::dict out;
+nb::dict describe(const Void& v, const VoidSpace& space) {
+  nb::dict out;
   out["volume"] = v.volume, out["depth"] = v.depth, out["path_length"] = v.path_length;
   out["widest"] = from_vector(v.widest), out["widest_radius"] = v.widest_radius;
   out["deepest"] = from_vector(v.deepest), out["bottleneck_radius"] = v.bottleneck_radius;
-  py::list entrances;
+  nb::list entrances;
   for (const Entrance& e : v.entrances) {
-    py::dict one;
+    nb::dict one;
     one["position"] = from_vector(e.position), one["inward"] = from_vector(e.inward);
     one["radius"] = e.radius, one["area"] = e.area;
     entrances.append(one);
@@ -172,11 +172,11 @@ py::dict describe(const Void& v, const VoidSpace& space) {
   std::vector<double> cells;
   for (const std::uint32_t cell : v.cells)
     for (int k = 0; k < 3; ++k) cells.push_back(space.grid.centre(cell)[k]);
-  out["cells"] = take_vector(std::move(cells), {py::ssize_t(v.cells.size()), 3});
+  out["cells"] = take_vector(std::move(cells), {Size(v.cells.size()), 3});
   return out;
 }
 
-py::list voids(const Pile& pile, double radius, double voxel) {
+nb::list voids(const Pile& pile, double radius, double voxel) {
   VoidSpaceOptions options;
   options.voxel = voxel;
   options.rolling_radius = outside_radius_for(options.rolling_radius, radius);
@@ -184,17 +184,17 @@ py::list voids(const Pile& pile, double radius, double voxel) {
   options.threads = pile.threads;
   VoidMap map;
   {
-    const py::gil_scoped_release free;
+    const nb::gil_scoped_release free;
     map = find_voids(calc_void_space(pile.settled->state, pile.settled->mission.assets.finest_meshes(), options),
                      {radius});
   }
-  py::list out;
+  nb::list out;
   for (const Void& v : map.robots.front().voids) out.append(describe(v, map.space));
   return out;
 }
 
 // All pieces as one mesh, at their finest, and then the fines.
-py::tuple mesh_of(const Pile& pile) {
+nb::tuple mesh_of(const Pile& pile) {
   const auto meshes = pile.settled->mission.assets.finest_meshes();
   std::vector<float> positions;
   std::vector<std::int32_t> triangles;
@@ -211,8 +211,18 @@ py::tuple mesh_of(const Pile& pile) {
   for (const PieceState& piece : state.pieces)
     if (piece.status != PieceStatus::lost) add(*meshes[std::size_t(piece.type)], piece.world_from_body, piece.scale);
   for (const FineHeap& heap : state.fines.heaps()) add(heap.mesh, world_from_host(state, heap.host), 1);
-  const auto vertices = py::ssize_t(positions.size() / 3), faces = py::ssize_t(triangles.size() / 3);
-  return py::make_tuple(take_vector(std::move(positions), {vertices, 3}), take_vector(std::move(triangles), {faces, 3}));
+  const auto vertices = Size(positions.size() / 3), faces = Size(triangles.size() / 3);
+  return nb::make_tuple(take_vector(std::move(positions), {vertices, 3}), take_vector(std::move(triangles), {faces, 3}));
+}
+
+// The complete scenario as JSON; what `rubble check` prints.
+std::string check_mission(const std::string& script, const nb::object& seed, const std::vector<std::string>& overrides) {
+  MissionOptions options;
+  options.overrides = overrides;
+  if (!seed.is_none()) options.seed = to_seed(seed);
+  const Mission mission = load_mission(script, options);
+  load_assets(mission, {});
+  return scenario_to_json(mission.scenario);
 }
 
 void set_sandbox(const std::optional<std::string>& folder) {
@@ -221,37 +231,39 @@ void set_sandbox(const std::optional<std::string>& folder) {
 
 }  // namespace
 
-void add_pile(py::module_& module) {
-  py::class_<Pile>(module, "Pile", "A settled pile: what lies where, and questions about it. Metres, world frame.")
-      .def_property_readonly("state_hash", [](const Pile& p) { return p.settled->state.state_hash(); },
+void add_pile(nb::module_& module) {
+  nb::class_<Pile>(module, "Pile", "A settled pile: what lies where, and questions about it. Metres, world frame.")
+      .def_prop_ro("state_hash", [](const Pile& p) { return p.settled->state.state_hash(); },
                              "64 bits over every piece's state: equal piles have equal hashes.")
-      .def_property_readonly("settled", [](const Pile& p) { return p.settled->state.settled; },
+      .def_prop_ro("settled", [](const Pile& p) { return p.settled->state.settled; },
                              "Whether every piece came to a checked rest.")
-      .def_property_readonly("poses", &poses_of, "(n, 7): x y z qw qx qy qz of every piece, world from body.")
-      .def_property_readonly("assets", &assets_of, "The name of every piece's asset.")
-      .def_property_readonly("seed", [](const Pile& p) { return p.settled->mission.scenario.seed; })
+      .def_prop_ro("poses", &poses_of, nb::rv_policy::automatic, "(n, 7): x y z qw qx qy qz of every piece, world from body.")
+      .def_prop_ro("assets", &assets_of, "The name of every piece's asset.")
+      .def_prop_ro("seed", [](const Pile& p) { return p.settled->mission.scenario.seed; })
       .def("__len__", [](const Pile& p) { return p.settled->state.pieces.size(); })
-      .def("cast_rays", &cast_rays, py::arg("origins"), py::arg("directions"), py::arg("max_distance") = 100.0,
+      .def("cast_rays", &cast_rays, nb::arg("origins"), nb::arg("directions"), nb::arg("max_distance") = 100.0,
            "What rays meet: dict of distance (inf: nothing), normal, piece (-1: ground, -2: nothing).")
-      .def("clearance", &clearance, py::arg("points"), py::arg("max_distance") = 10.0,
+      .def("clearance", &clearance, nb::arg("points"), nb::arg("max_distance") = 10.0,
            "How far each point is from everything solid; 0 inside a piece and below the ground.")
-      .def("voids", &voids, py::arg("radius"), py::arg("voxel") = 0.05,
+      .def("voids", &voids, nb::arg("radius"), nb::arg("voxel") = 0.05,
            "The voids that a ball of that radius has room in, the largest first.")
       .def("mesh", &mesh_of, "(vertices (n, 3) float32, triangles (m, 3) int32) of all pieces.")
-      .def("vary", &vary, py::arg("overrides"),
+      .def("vary", &vary, nb::arg("overrides"),
            "The same pile under other keys of its mission (\"key=value\"): light, air, cameras, sensors, robots. Nothing "
            "settles again.")
-      .def_property_readonly("_shared", [](const Pile& p) { return p.settled; })
-      .def_property_readonly("threads", [](const Pile& p) { return p.threads; });
-  py::class_<SettledMission, SharedPile>(module, "_Settled");
-  module.def("settle", &settle, py::arg("mission"), py::arg("seed") = py::none(),
-             py::arg("overrides") = std::vector<std::string>(), py::arg("threads") = 0,
+      .def_prop_ro("_shared", [](const Pile& p) { return p.settled; })
+      .def_prop_ro("threads", [](const Pile& p) { return p.threads; });
+  nb::class_<SettledMission>(module, "_Settled");
+  module.def("settle", &settle, nb::arg("mission"), nb::arg("seed") = nb::none(),
+             nb::arg("overrides") = std::vector<std::string>(), nb::arg("threads") = 0,
              "Settles the pile of a mission script. overrides: \"key=value\", as rubble run --set.");
-  module.def("set_sandbox", &set_sandbox, py::arg("folder"),
+  module.def("check_mission", &check_mission, nb::arg("script"), nb::arg("seed") = nb::none(),
+             nb::arg("overrides") = std::vector<std::string>());
+  module.def("set_sandbox", &set_sandbox, nb::arg("folder"),
              "From now on this process reads missions, packs and what they name only below that folder, as rubble --sandbox; "
              "None: everywhere again. Folders given to open_pile stay open.");
-  module.def("open_pile", &open_pile, py::arg("folder"), py::arg("threads") = 0,
-             py::arg("assets") = std::vector<std::string>(),
+  module.def("open_pile", &open_pile, nb::arg("folder"), nb::arg("threads") = 0,
+             nb::arg("assets") = std::vector<std::string>(),
              "The settled pile of a finished run. assets: folders of packs, terrain meshes and URDF files that are not bundled.");
 }
 

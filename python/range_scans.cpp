@@ -1,5 +1,4 @@
 // Scans of LiDARs over a pile that rests.
-#include <pybind11/stl.h>
 
 #include <algorithm>
 
@@ -32,18 +31,17 @@ class PyLidar {
   }
 
   // The sensor stands still.
-  py::array scan(const DoubleArray& world_from_sensor, int number) const {
+  nb::object scan(const DoubleArray& world_from_sensor, int number) const {
     const Pose pose = to_pose(world_from_sensor, "pose");
     const Scenario& s = settled_->mission.scenario;
     RangeScan scan;
     {
-      const py::gil_scoped_release free;
+      const nb::gil_scoped_release free;
       Lidar lidar(spec_, world_, {[pose](std::int64_t) { return pose; }, s.start_ns}, Medium(s.air, s.seed), seed_,
                   threads_);
       scan = lidar.take(number);
     }
-    const auto count = py::ssize_t(scan.points.size());
-    return take_vector(std::move(scan.points), {count});
+    return to_structured(std::move(scan.points));
   }
 
  private:
@@ -56,14 +54,28 @@ class PyLidar {
 
 }  // namespace
 
-void add_range_scans(py::module_& module) {
-  PYBIND11_NUMPY_DTYPE(ScanPoint, x, y, z, intensity, time, ring, column);
-  py::class_<PyLidar>(module, "_Lidar")
-      .def(py::init([](const SharedPile& s, const std::string& model, bool noise,
-                       const py::object& seed, int threads) {
-        return std::make_unique<PyLidar>(s, model, noise, to_seed(seed), threads);
-      }))
-      .def("scan", &PyLidar::scan, py::arg("pose"), py::arg("number") = 0);
+nb::object to_structured(std::vector<ScanPoint>&& points) {
+  static const std::vector<std::pair<const char*, std::pair<const char*, std::size_t>>> fields = {
+      {"x", {"<f4", offsetof(ScanPoint, x)}},         {"y", {"<f4", offsetof(ScanPoint, y)}},
+      {"z", {"<f4", offsetof(ScanPoint, z)}},         {"intensity", {"<f4", offsetof(ScanPoint, intensity)}},
+      {"time", {"<f4", offsetof(ScanPoint, time)}},   {"ring", {"<u2", offsetof(ScanPoint, ring)}},
+      {"column", {"<u2", offsetof(ScanPoint, column)}}};
+  nb::list names, formats, offsets;
+  for (const auto& [name, rest] : fields)
+    names.append(name), formats.append(rest.first), offsets.append(rest.second);
+  nb::dict layout;
+  layout["names"] = names, layout["formats"] = formats, layout["offsets"] = offsets;
+  layout["itemsize"] = sizeof(ScanPoint);
+  const Size count = Size(points.size());
+  const nb::object raw = nb::cast(take_as<std::uint8_t>(std::move(points), {count * Size(sizeof(ScanPoint))}));
+  return raw.attr("view")(nb::module_::import_("numpy").attr("dtype")(layout));
+}
+
+void add_range_scans(nb::module_& module) {
+  nb::class_<PyLidar>(module, "_Lidar")
+      .def("__init__", [](PyLidar* made, const SharedPile& s, const std::string& model, bool noise, const nb::object& seed,
+                          int threads) { new (made) PyLidar(s, model, noise, to_seed(seed), threads); })
+      .def("scan", &PyLidar::scan, nb::arg("pose"), nb::arg("number") = 0);
 }
 
 }  // namespace rubble::python

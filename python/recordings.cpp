@@ -1,5 +1,4 @@
 // Messages of recordings, as they are on the wire; rubble/dataset.py knows what they mean.
-#include <pybind11/stl.h>
 
 #include <map>
 #include <set>
@@ -17,9 +16,9 @@ bool ends_with(const std::string& text, const std::string& end) {
 }
 
 // Each message's bytes as an array of their own, by topic; topics: empty: of all.
-std::map<std::string, std::vector<py::bytes>> read_messages(const std::string& path,
+std::map<std::string, std::vector<nb::bytes>> read_messages(const std::string& path,
                                                             const std::set<std::string>& topics) {
-  std::map<std::string, std::vector<py::bytes>> messages;
+  std::map<std::string, std::vector<nb::bytes>> messages;
   const auto take = [&](const RosMessage& m) {
     const std::string topic(m.topic);
     if (topics.empty() || topics.count(topic)) messages[topic].emplace_back(m.bytes.data(), m.bytes.size());
@@ -42,9 +41,9 @@ std::map<std::string, std::int64_t> count_messages(const std::string& path) {
 
 }  // namespace
 
-void add_recordings(py::module_& module) {
-  module.def("read_messages", &read_messages, py::arg("path"), py::arg("topics"));
-  module.def("count_messages", &count_messages, py::arg("path"));
+void add_recordings(nb::module_& module) {
+  module.def("read_messages", &read_messages, nb::arg("path"), nb::arg("topics"));
+  module.def("count_messages", &count_messages, nb::arg("path"));
 }
 
 }  // namespace rubble::python

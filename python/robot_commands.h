@@ -16,7 +16,7 @@ RobotCommand make_growth_command(const RobotModel& model, double speed, double l
 RobotCommand make_joints_command(const RobotModel& model, const std::vector<double>& targets);
 
 // time: unit: s
-py::dict describe_state(const RobotModel& model, const RobotState& state, double time);
+nb::dict describe_state(const RobotModel& model, const RobotState& state, double time);
 std::vector<std::string> link_names_of(const RobotModel& model);
 
 // Whole steps in so many seconds; at least one. Throws InputError beyond a minute.

@@ -1,6 +1,5 @@
 #include "python/robot_commands.h"
 
-#include <pybind11/stl.h>
 
 #include <algorithm>
 #include <cmath>
@@ -49,22 +48,22 @@ RobotCommand make_joints_command(const RobotModel& model, const std::vector<doub
   return command;
 }
 
-py::dict describe_state(const RobotModel& model, const RobotState& s, double time) {
-  py::dict out;
-  py::array_t<double> links = make_array<double>({py::ssize_t(s.links.size()), 7});
-  for (std::size_t i = 0; i < s.links.size(); ++i) put_pose(s.links[i].world_from_link, links.mutable_data() + 7 * i);
+nb::dict describe_state(const RobotModel& model, const RobotState& s, double time) {
+  nb::dict out;
+  Array<double> links = make_array<double>({Size(s.links.size()), 7});
+  for (std::size_t i = 0; i < s.links.size(); ++i) put_pose(s.links[i].world_from_link, links.data() + 7 * i);
   std::vector<double> angles, speeds, torques, forces;
   for (const RobotState::Joint& j : s.joints)
     angles.push_back(j.position), speeds.push_back(j.speed), torques.push_back(j.torque);
   for (const RobotState::Link& link : s.links)
     for (int k = 0; k < 3; ++k) forces.push_back(link.contact_force[k]);
-  const auto joints = py::ssize_t(s.joints.size());
+  const auto joints = Size(s.joints.size());
   out["time"] = time;
   out["links"] = links;
   out["joint_positions"] = take_vector(std::move(angles), {joints});
   out["joint_speeds"] = take_vector(std::move(speeds), {joints});
   out["joint_torques"] = take_vector(std::move(torques), {joints});
-  out["contact_forces"] = take_vector(std::move(forces), {py::ssize_t(s.links.size()), 3});
+  out["contact_forces"] = take_vector(std::move(forces), {Size(s.links.size()), 3});
   out["linear_velocity"] = from_vector(s.links[0].linear), out["angular_velocity"] = from_vector(s.links[0].angular);
   if (model.tube) out["length"] = s.length, out["tip_force"] = s.tip_force;
   out["lost"] = s.lost;

@@ -1,15 +1,14 @@
 // Sensors over a pile that rests: frames of the renderer, depth by exact rays.
-#include <pybind11/stl.h>
 
 #include <array>
 #include <cmath>
 
 #include "app/scene/build_scene.h"
+#include "app/support/drawing_device.h"
 #include "app/sensors/camera_renderers.h"
 #include "kernel/base/parallel.h"
 #include "python/arrays.h"
 #include "python/parts.h"
-#include "render/gl/gl_context.h"
 #include "render/rays/depth_rays.h"
 #include "render/renderer.h"
 
@@ -31,7 +30,7 @@ Intrinsics pinhole(int width, int height, double fov_deg, double shift_x, double
   return k;
 }
 
-py::array_t<double> camera_matrix(const Intrinsics& k) {
+Array<double> camera_matrix(const Intrinsics& k) {
   return take_vector<double>({k.fx, 0, k.cx, 0, k.fy, k.cy, 0, 0, 1}, {3, 3});
 }
 
@@ -46,15 +45,15 @@ class FrameRenderer {
  public:
   FrameRenderer(SharedPile settled, int threads)
       : settled_(std::move(settled)),
-        gl_({-1, threads}),
-        renderer_(prepare_renderer(scene_of(*settled_), settled_->mission.scenario.cameras.front().camera.colour, gl_, {threads, {}, {}})) {}
+        device_(open_device(-1, threads)),
+        renderer_(prepare_renderer(scene_of(*settled_), settled_->mission.scenario.cameras.front().camera.colour, *device_, {threads, {}, {}})) {}
 
-  py::dict render(const DoubleArray& world_from_camera, int width, int height, double fov_deg, int number,
+  nb::dict render(const DoubleArray& world_from_camera, int width, int height, double fov_deg, int number,
                   const std::array<double, 2>& shift) {
     const Pose pose = to_pose(world_from_camera, "pose");
     const Intrinsics k = pinhole(width, height, fov_deg, shift[0], shift[1]);
     Frame frame = renderer_->render(pose, k, number, settled_->mission.scenario.start_ns);
-    py::dict out;
+    nb::dict out;
     out["rgb"] = take_vector(std::move(frame.rgb), {height, width, 3});
     out["depth"] = take_vector(std::move(frame.depth), {height, width});
     out["K"] = camera_matrix(k);
@@ -63,7 +62,7 @@ class FrameRenderer {
 
  private:
   SharedPile settled_;
-  GlContext gl_;
+  std::unique_ptr<Device> device_;
   std::unique_ptr<Renderer> renderer_;
 };
 
@@ -73,18 +72,18 @@ class DepthCamera {
   DepthCamera(SharedPile settled, int width, int height, double fov_deg, double max_range, int threads)
       : world_(scene_of(*settled)), rays_(pinhole(width, height, fov_deg), max_range), pool_(threads) {}
 
-  py::array_t<float> depth(const DoubleArray& world_from_camera) {
+  Array<float> depth(const DoubleArray& world_from_camera) {
     const Pose pose = to_pose(world_from_camera, "pose");
     const Intrinsics& k = rays_.intrinsics();
-    py::array_t<float> out = make_array<float>({k.height, k.width});
-    float* const values = out.mutable_data();
+    Array<float> out = make_array<float>({k.height, k.width});
+    float* const values = out.data();
     {
-      const py::gil_scoped_release free;
+      const nb::gil_scoped_release free;
       rays_.cast(world_, pose, pool_, values);
     }
     return out;
   }
-  py::array_t<double> matrix() const { return camera_matrix(rays_.intrinsics()); }
+  Array<double> matrix() const { return camera_matrix(rays_.intrinsics()); }
 
  private:
   RayWorld world_;
@@ -94,20 +93,16 @@ class DepthCamera {
 
 }  // namespace
 
-void add_sensors(py::module_& module) {
-  py::class_<FrameRenderer>(module, "_Renderer")
-      .def(py::init([](const SharedPile& s, int threads) {
-        return std::make_unique<FrameRenderer>(s, threads);
-      }))
-      .def("render", &FrameRenderer::render, py::arg("pose"), py::arg("width") = 640, py::arg("height") = 480,
-           py::arg("fov_deg") = 90.0, py::arg("number") = 0, py::arg("shift") = std::array<double, 2>{0, 0});
-  py::class_<DepthCamera>(module, "_DepthCamera")
-      .def(py::init([](const SharedPile& s, int width, int height, double fov_deg,
-                       double max_range, int threads) {
-        return std::make_unique<DepthCamera>(s, width, height, fov_deg, max_range, threads);
-      }))
-      .def("depth", &DepthCamera::depth, py::arg("pose"))
-      .def_property_readonly("K", &DepthCamera::matrix);
+void add_sensors(nb::module_& module) {
+  nb::class_<FrameRenderer>(module, "_Renderer")
+      .def("__init__", [](FrameRenderer* made, const SharedPile& s, int threads) { new (made) FrameRenderer(s, threads); })
+      .def("render", &FrameRenderer::render, nb::arg("pose"), nb::arg("width") = 640, nb::arg("height") = 480,
+           nb::arg("fov_deg") = 90.0, nb::arg("number") = 0, nb::arg("shift") = std::array<double, 2>{0, 0});
+  nb::class_<DepthCamera>(module, "_DepthCamera")
+      .def("__init__", [](DepthCamera* made, const SharedPile& s, int width, int height, double fov_deg, double max_range,
+                          int threads) { new (made) DepthCamera(s, width, height, fov_deg, max_range, threads); })
+      .def("depth", &DepthCamera::depth, nb::arg("pose"))
+      .def_prop_ro("K", &DepthCamera::matrix, nb::rv_policy::automatic);
   add_range_scans(module);
 }
 

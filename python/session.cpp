@@ -2,7 +2,6 @@
 #include "app/provenance/provenance.h"
 #include "app/session/session.h"
 
-#include <pybind11/stl.h>
 
 #include <algorithm>
 #include <map>
@@ -21,8 +20,8 @@ namespace {
 
 constexpr double kMostControlHz = 240;  // a command each step
 
-py::array_t<double> to_array(std::vector<double> values) {
-  const auto count = py::ssize_t(values.size());
+Array<double> to_array(std::vector<double> values) {
+  const auto count = Size(values.size());
   return take_vector(std::move(values), {count});
 }
 
@@ -37,7 +36,7 @@ class MissionSession {
   MissionSession(SharedPile settled, bool observed, bool depth, int threads)
       : settled_(std::move(settled)), context_(quiet(threads)), session_(with_lines([&] { return make(observed, depth); })) {
     with_lines([&] {
-      const py::gil_scoped_release free;
+      const nb::gil_scoped_release free;
       session_->start();
       return true;
     });
@@ -76,7 +75,7 @@ class MissionSession {
     for (const auto& [robot, pose] : poses) session_->place(find(robot), to_pose(pose, "pose"));
     last_.clear(), refused_.reset();
     const auto start = [&] {
-      const py::gil_scoped_release free;
+      const nb::gil_scoped_release free;
       session_->start();
       return true;
     };
@@ -101,7 +100,7 @@ class MissionSession {
     const int steps = count_steps(seconds, session_->step_time());
     if (refused_) throw *refused_;
     const auto go = [&] {
-      const py::gil_scoped_release free;
+      const nb::gil_scoped_release free;
       for (int i = 0; i < steps; ++i) session_->step();
       return true;
     };
@@ -116,22 +115,22 @@ class MissionSession {
     }
   }
 
-  py::list observe() {
+  nb::list observe() {
     std::vector<Sample> samples;
     {
-      const py::gil_scoped_release free;
+      const nb::gil_scoped_release free;
       samples = session_->observe();
     }
-    py::list out;
+    nb::list out;
     for (Sample& sample : samples) {
-      py::dict one = std::visit([this](auto& of) { return describe(of); }, sample);
+      nb::dict one = std::visit([this](auto& of) { return describe(of); }, sample);
       one["stamp"] = stamp_of(sample);
       out.append(one);
     }
     return out;
   }
 
-  py::dict state(const std::string& robot) const {
+  nb::dict state(const std::string& robot) const {
     const std::size_t i = find(robot);
     return describe_state(session_->robots()[i].model, session_->world().robots().state(int(i)), time());
   }
@@ -171,42 +170,42 @@ class MissionSession {
     session_->command(i, last_[i] = std::move(asked));
   }
 
-  static py::dict named(const char* kind, const std::string& sensor) {
-    py::dict out;
+  static nb::dict named(const char* kind, const std::string& sensor) {
+    nb::dict out;
     out["kind"] = kind, out["sensor"] = sensor;
     return out;
   }
-  py::dict describe(const RobotSample& s) const {
-    py::dict out = named("robot", session_->names()[std::size_t(s.sensor)]);
+  nb::dict describe(const RobotSample& s) const {
+    nb::dict out = named("robot", session_->names()[std::size_t(s.sensor)]);
     std::vector<double> wrenches;
     for (const RobotSample::Wrench& w : s.contacts)
       for (const Vec3* v : {&w.force, &w.moment}) wrenches.insert(wrenches.end(), {v->x, v->y, v->z});
     out["positions"] = to_array(s.positions), out["speeds"] = to_array(s.speeds), out["efforts"] = to_array(s.efforts);
-    out["contacts"] = take_vector(std::move(wrenches), {py::ssize_t(s.contacts.size()), 6});
+    out["contacts"] = take_vector(std::move(wrenches), {Size(s.contacts.size()), 6});
     out["pose"] = from_pose(s.world_from_base);
     out["linear_velocity"] = from_vector(s.linear_velocity), out["angular_velocity"] = from_vector(s.angular_velocity);
     if (s.odometry) out["odometry"] = from_pose(s.odometry->odom_from_base);
     return out;
   }
-  py::dict describe(const ImuSample& s) const {
-    py::dict out = named("imu", scenario().imus[std::size_t(s.sensor)].name);
+  nb::dict describe(const ImuSample& s) const {
+    nb::dict out = named("imu", scenario().imus[std::size_t(s.sensor)].name);
     out["angular_velocity"] = from_vector(s.angular_velocity);
     out["linear_acceleration"] = from_vector(s.linear_acceleration);
     return out;
   }
-  py::dict describe(const Reading& s) const {
+  nb::dict describe(const Reading& s) const {
     const SensorItem& sensor = scenario().sensors[std::size_t(s.sensor)];
-    py::dict out = named(sensor.figures->sample_name().c_str(), sensor.name);
+    nb::dict out = named(sensor.figures->sample_name().c_str(), sensor.name);
     if (s.scan) {
-      out["points"] = take_vector(std::vector<ScanPoint>(s.scan->points), {py::ssize_t(s.scan->points.size())});
+      out["points"] = to_structured(std::vector<ScanPoint>(s.scan->points));
       out["pose"] = from_pose(s.scan->world_from_sensor.front());
     }
     const std::vector<ReadingColumn> columns = sensor.figures->columns();
     for (std::size_t i = 0; i < columns.size(); ++i) out[columns[i].name.c_str()] = s.values[i];
     return out;
   }
-  py::dict describe(Frame& s) const {
-    py::dict out = named("camera", scenario().cameras[std::size_t(s.sensor)].name);
+  nb::dict describe(Frame& s) const {
+    nb::dict out = named("camera", scenario().cameras[std::size_t(s.sensor)].name);
     const Intrinsics& k = s.intrinsics;
     out["K"] = camera_matrix(k), out["pose"] = from_pose(s.world_from_camera);
     if (!s.depth.empty()) out["depth"] = take_vector(std::move(s.depth), {k.height, k.width});
@@ -224,15 +223,15 @@ class MissionSession {
 
 }  // namespace
 
-void add_sessions(py::module_& module) {
-  py::class_<MissionSession>(module, "_Session")
-      .def(py::init([](const SharedPile& settled, bool observed, bool depth, int threads) {
-             return std::make_unique<MissionSession>(settled, observed, depth, threads);
-           }))
-      .def(py::init([](const SharedPile& settled, const std::string& robot, const DoubleArray& pose, bool fixed_debris,
-                       int threads, std::optional<double> friction) {
-        return std::make_unique<MissionSession>(settled, robot, to_pose(pose, "pose"), fixed_debris, threads, friction);
-      }))
+void add_sessions(nb::module_& module) {
+  nb::class_<MissionSession>(module, "_Session")
+      .def("__init__", [](MissionSession* made, const SharedPile& settled, bool observed, bool depth, int threads) {
+        new (made) MissionSession(settled, observed, depth, threads);
+      })
+      .def("__init__", [](MissionSession* made, const SharedPile& settled, const std::string& robot, const DoubleArray& pose,
+                          bool fixed_debris, int threads, std::optional<double> friction) {
+        new (made) MissionSession(settled, robot, to_pose(pose, "pose"), fixed_debris, threads, friction);
+      })
       .def("reset", &MissionSession::reset)
       .def("drive", &MissionSession::drive)
       .def("grow", &MissionSession::grow)
@@ -242,8 +241,8 @@ void add_sessions(py::module_& module) {
       .def("observe", &MissionSession::observe)
       .def("state", &MissionSession::state)
       .def("link_names", &MissionSession::link_names)
-      .def_property_readonly("robots", &MissionSession::robots)
-      .def_property_readonly("time", &MissionSession::time);
+      .def_prop_ro("robots", &MissionSession::robots)
+      .def_prop_ro("time", &MissionSession::time);
 }
 
 }  // namespace rubble::python

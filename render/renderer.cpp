@@ -13,14 +13,14 @@ ViewRays pinhole_view(const Pose& world_from_camera, const Intrinsics& k, std::i
 
 }  // namespace
 
-Renderer::Renderer(GlContext& context, const Scene& scene, const RenderOptions& options,
+Renderer::Renderer(Device& device, const Scene& scene, const RenderOptions& options,
                    const Progress& progress) {
-  context.make_current();
+  device.make_current();
   // The rest of the preparation is the making of textures, which mostly lie in the cache.
   const auto report = [&](double fraction) {
     if (progress) progress(fraction);
   };
-  source_ = std::make_unique<ViewSource>(context, scene, options,
+  source_ = std::make_unique<ViewSource>(device, scene, options,
                                          [&](double fraction) { report(0.9 * fraction); });
   report(1);
 }
@@ -28,14 +28,14 @@ Renderer::Renderer(GlContext& context, const Scene& scene, const RenderOptions& 
 Renderer::~Renderer() {
   if (!source_) return;
   try {
-    source_->scene.context.make_current();  // so that what it made there can be deleted
+    source_->scene.device.make_current();  // so that what it made there can be deleted
   } catch (const RunError&) {
     // Nothing can be deleted without a context; the driver frees it with the context.
   }
 }
 
 void Renderer::restart(const LampSpec& lamp, const AirSpec& air) {
-  source_->scene.context.make_current();
+  source_->scene.device.make_current();
   source_->scene.change(lamp, air);
   source_->colours.restart();
   source_->drops.restart();

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "render/camera/view_rays.h"
-#include "render/gl/gl_context.h"
+#include "render/device/device.h"
 #include "render/media/medium.h"
 #include "render/scene/frame.h"
 #include "render/scene/scene.h"
@@ -21,9 +21,9 @@ class Renderer {
   // Called with the done fraction (0 to 1) while the scene is prepared.
   using Progress = std::function<void(double)>;
 
-  // Prepares all that does not depend on the camera. The context must outlive the renderer and be used by one thread at
+  // Prepares all that does not depend on the camera. The device must outlive the renderer and be used by one thread at
   // a time. Throws RunError for an unknown look or if memory is exhausted.
-  Renderer(GlContext& context, const Scene& scene, const RenderOptions& options = {},
+  Renderer(Device& device, const Scene& scene, const RenderOptions& options = {},
            const Progress& progress = {});
   ~Renderer();
 

@@ -62,6 +62,10 @@ class Batch {
     check_mission();
     if (request_.of.preview) return show_preview();
     folder_.open(describe());
+    if (request_.index_only) {
+      write_index();
+      return report();
+    }
     make_jobs();
     check_disk(estimate_, "estimated");
     progress_.start("batch");

@@ -26,6 +26,7 @@ struct BatchRequest {
   int samples = 0;         // --samples of the ranges among them; 0: there are none
   std::string shard;       // --shard I/N; empty: all
   int jobs = 0;            // --jobs: runs at once; 0: as many as there are processors
+  bool index_only = false;  // --index-only: opens the folder and writes index.csv, but runs nothing
   bool pile_only = false;  // --pile-only: `rubble settle` instead of `rubble run`
 };
 

@@ -38,9 +38,8 @@ void add_threads_option(CommandLine& line, int& threads) {
 }
 
 void add_device_option(CommandLine& line, int& device) {
-  line.add("--gl-device", device, "Number of the EGL device for rendering")
-      .shows_default_text(
-          "$RUBBLE_EGL_DEVICE, or the first device that works, hardware before software")
+  line.add("--gl-device", device, "Let this graphics card draw, by its number in `rubble info --gl`")
+      .shows_default_text("as $RUBBLE_DEVICE says")
       .metavar("N")
       .between(0, 1000);
 }

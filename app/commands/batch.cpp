@@ -22,6 +22,7 @@ Action declare_batch(CommandLine& line) {
       .metavar("N");
   line.add("--shard", request->shard, "Run only part I of N, for one of N machines").metavar("I/N");
   add_preview_option(line, request->of);
+  line.add_flag("--index-only", request->index_only, "Write index.csv of the runs that are there, and run nothing");
   line.add_flag("--pile-only", request->pile_only, "Settle the piles only; render nothing");
   line.add("--out", request->of.out, "Output folder")
       .shows_default_text("out/<script>_batch")

@@ -9,6 +9,7 @@
 #include "app/measures/pile_section.h"
 #include "app/mission/finished_run.h"
 #include "app/scene/build_scene.h"
+#include "app/support/drawing_device.h"
 #include "app/support/print.h"
 #include "app/support/run_request.h"
 #include "io/image/picture_sheet.h"
@@ -178,8 +179,8 @@ ExitCode draw_cutaway(const FolderRequest& request, const CutawayRequest& cutawa
   const View view(section, cutaway.y, cutaway.width * kOversample);
   RenderOptions options;
   options.threads = RunContext(request.options).threads();
-  GlContext context({request.options.gl_device, options.threads});
-  Renderer renderer(context, section.scene, options);
+  const std::unique_ptr<Device> device = open_device(request.options.gl_device, options.threads);
+  Renderer renderer(*device, section.scene, options);
   Frame frame;
   for (int i = 0; i < 3; ++i)
     frame = renderer.render(view.world_from_camera, view.intrinsics, i, 1000000000LL * (i + 1));

@@ -10,8 +10,7 @@
 #include "app/support/print.h"
 #include "io/live/live_ros.h"
 #include "kernel/base/system/thread_count.h"
-#include "render/gl/gl_context.h"
-#include "render/view/drawn_by.h"
+#include "render/devices/make_device.h"
 
 namespace rubble {
 namespace {
@@ -24,19 +23,21 @@ struct InfoRequest {
 
 // Every way to draw on this machine, and what decides how it fares.
 void print_ways() {
-  const GlReport report = report_gl();
+  const CardReport report = report_cards();
   print_out("ways to draw, in the order in which they are tried\n");
-  for (const GlReport::Candidate& candidate : report.candidates)
-    print_out("  %s: %s\n", candidate.name.c_str(), candidate.outcome.c_str());
+  for (const auto& [name, outcome] : report.ways) print_out("  %s: %s\n", name.c_str(), outcome.c_str());
   const char* environment = std::getenv("RUBBLE_EGL_DEVICE");
   print_out("RUBBLE_EGL_DEVICE: %s\n", environment && *environment ? environment : "not set");
   for (const std::string& line : report.circumstances) print_out("note: %s\n", line.c_str());
   std::fflush(stdout);
 }
 
-void print_limits(const GlInfo& info) {
-  print_out("chosen        %s: %s\n", info.egl_device.c_str(), info.why.c_str());
-  for (const auto& [name, value] : info.limits) print_out("  %-24s%d\n", name.c_str(), value);
+void print_card(int gl_device) {
+  print_ways();
+  const std::unique_ptr<Device> card = make_device({DeviceKind::gl, gl_device, 0});
+  for (const auto& [name, value] : card->info().details)
+    print_out("%-14s%s\n", (name == "egl_device" ? "chosen" : name).c_str(), value.c_str());
+  for (const auto& [name, value] : card->info().limits) print_out("  %-24s%d\n", name.c_str(), value);
 }
 
 ExitCode print_info(const InfoRequest& request) {
@@ -54,15 +55,11 @@ ExitCode print_info(const InfoRequest& request) {
                   "docs/explanation/determinism.md");
   print_out("live ROS 1    %s\n", describe_ros1().c_str());
   print_out("live ROS 2    %s\n", describe_ros2().c_str());
+  print_out("device        software: %s\n", make_device({})->info().about.c_str());
+  const std::string card = find_card();
+  print_out("device        gl: %s\n", card.empty() ? "no graphics card is seen" : card.c_str());
   std::fflush(stdout);  // the versions are worth having even if EGL fails below
-  if (request.gl) print_ways();
-  const GlContext context({request.gl_device, 0});
-  const GlInfo& info = context.info();
-  print_out("EGL           %s, %s\n", info.egl_version.c_str(), info.egl_device.c_str());
-  print_out("GL renderer   %s\n", info.renderer.c_str());
-  print_out("GL version    %s (%s)\n", info.version.c_str(), info.vendor.c_str());
-  print_out("shading       %s\n", describe_shading(info).c_str());
-  if (request.gl) print_limits(info);
+  if (request.gl || request.gl_device >= 0) print_card(request.gl_device);
   return ExitCode::done;
 }
 
@@ -82,7 +79,7 @@ Action declare_info(CommandLine& line) {
 }  // namespace
 
 Command info_command() {
-  return {"", "info", "Print versions, OpenGL renderer and threads; or list and check datasets",
+  return {"", "info", "Print versions, devices that draw, and threads; or list and check datasets",
           declare_info};
 }
 

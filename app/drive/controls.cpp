@@ -1,6 +1,6 @@
 #include "app/drive/controls.h"
 
-#include <SDL.h>
+#include "app/drive/sdl.h"
 
 #include <algorithm>
 #include <cmath>
@@ -123,18 +123,18 @@ struct Controls::State {
 };
 
 std::string Controls::State::plug_in(int device) {
-  SDL_GameController* const pad = SDL_GameControllerOpen(device);
-  if (!pad) return std::string("a game controller cannot be used: ") + SDL_GetError();
-  const SDL_JoystickID id = SDL_JoystickInstanceID(SDL_GameControllerGetJoystick(pad));
+  SDL_GameController* const pad = sdl().GameControllerOpen(device);
+  if (!pad) return std::string("a game controller cannot be used: ") + sdl().GetError();
+  const SDL_JoystickID id = sdl().JoystickInstanceID(sdl().GameControllerGetJoystick(pad));
   if (!pads.emplace(id, pad).second) return "";  // SDL counts how often it was opened
-  const char* name = SDL_GameControllerName(pad);
+  const char* name = sdl().GameControllerName(pad);
   return std::string("game controller: ") + (name ? name : "without a name");
 }
 
 std::string Controls::State::unplug(SDL_JoystickID id) {
   const auto pad = pads.find(id);
   if (pad == pads.end()) return "";
-  SDL_GameControllerClose(pad->second);
+  sdl().GameControllerClose(pad->second);
   pads.erase(pad);
   return "the game controller is gone: its sticks count as released, the keyboard goes on";
 }
@@ -148,7 +148,7 @@ void Controls::State::press(SDL_Scancode key) {
 Controls::Controls(LeftButton left) : state_(std::make_unique<State>()) { state_->left = left; }
 
 Controls::~Controls() {
-  for (const auto& [id, pad] : state_->pads) SDL_GameControllerClose(pad);
+  for (const auto& [id, pad] : state_->pads) sdl().GameControllerClose(pad);
 }
 
 std::string Controls::handle(const SDL_Event& event) {
@@ -204,7 +204,7 @@ DriveInput Controls::take() {
   for (const auto& [id, pad] : s.pads)
     for (const AxisStick& stick : kAxisSticks)
       input.*stick.axis +=
-          stick.sign * past_dead_zone(SDL_GameControllerGetAxis(pad, stick.stick));
+          stick.sign * past_dead_zone(sdl().GameControllerGetAxis(pad, stick.stick));
   for (double DriveInput::*axis :
        {&DriveInput::forward, &DriveInput::roll, &DriveInput::pitch, &DriveInput::yaw})
     input.*axis = std::clamp(input.*axis, -1.0, 1.0);

@@ -39,10 +39,7 @@ std::array<int, 2> window_size(const DriveRequest& request) {
 DriveSession::DriveSession(const DriveRequest& request)
     : request_(request),
       folder_(choose_folder(request)),
-      window_("rubble drive", window_size(request)[0], window_size(request)[1]),
-      context_({request.of.options.gl_device,
-                request.of.options.threads > 0 ? request.of.options.threads
-                                               : default_thread_count()}) {
+      window_("rubble drive", window_size(request)[0], window_size(request)[1]) {
   prepare_drive_folder(folder_, request_.of.force);
   link_ = DriveLink::connect(request_.of.options);
   enter(std::nullopt);
@@ -64,7 +61,7 @@ void DriveSession::enter(std::optional<std::uint64_t> seed) {
   voids_.reset();
   choice_.voids = false;
   world_.reset();
-  world_ = make_drive_world(request_, seed, context_, [this] { return stay(); });
+  world_ = make_drive_world(request_, seed, [this] { return stay(); });
   if (!world_->pile.settled) say("some pieces still moved when the time limit came");
   camera_ = std::make_unique<DrivenCamera>(world_->entry, world_->plan,
                                            world_->scenario.trajectory.radius,

@@ -50,7 +50,6 @@ class DriveSession {
   std::string folder_;
   Controls controls_;
   DriveWindow window_;
-  GlContext context_;
   std::unique_ptr<DriveWorld> world_;
   std::unique_ptr<DrivenCamera> camera_;
   std::unique_ptr<DriveLink> link_;  // none unless asked for

@@ -1,6 +1,6 @@
 #include "app/drive/drive_window.h"
 
-#include <SDL.h>
+#include "app/drive/sdl.h"
 
 #include <cstdlib>
 
@@ -14,11 +14,11 @@ std::string variable(const char* name) {
   return std::string(name) + (value && *value ? std::string("=") + value : " is not set");
 }
 
-[[noreturn]] void fail(const std::string& what) {
+[[noreturn]] void fail(const std::string& what, const std::string& why = sdl().GetError()) {
   std::string drivers;
-  for (int i = 0; i < SDL_GetNumVideoDrivers(); ++i)
-    drivers += (i ? ", " : "") + std::string(SDL_GetVideoDriver(i));
-  throw RunError("drive needs a window, and " + what + ": " + SDL_GetError() +
+  for (int i = 0; i < sdl().GetNumVideoDrivers(); ++i)
+    drivers += (i ? ", " : "") + std::string(sdl().GetVideoDriver(i));
+  throw RunError("drive needs a window, and " + what + ": " + why +
                  "\n  SDL can use: " + drivers + "\n  " + variable("DISPLAY") + ", " +
                  variable("WAYLAND_DISPLAY") + ", " + variable("SDL_VIDEODRIVER") +
                  "\n  start it on a desktop, over `ssh -X`, or under `xvfb-run -a`; "
@@ -34,48 +34,46 @@ struct DriveWindow::State {
   int width = 0, height = 0;  // of the texture
 
   ~State() {
-    if (texture) SDL_DestroyTexture(texture);
-    if (renderer) SDL_DestroyRenderer(renderer);
-    if (window) SDL_DestroyWindow(window);
-    SDL_Quit();
+    if (texture) sdl().DestroyTexture(texture);
+    if (renderer) sdl().DestroyRenderer(renderer);
+    if (window) sdl().DestroyWindow(window);
+    sdl().Quit();
   }
   void fit(int w, int h);
 };
 
 void DriveWindow::State::fit(int w, int h) {
   if (texture && w == width && h == height) return;
-  if (texture) SDL_DestroyTexture(texture);
-  texture = SDL_CreateTexture(renderer, SDL_PIXELFORMAT_RGB24, SDL_TEXTUREACCESS_STREAMING, w, h);
+  if (texture) sdl().DestroyTexture(texture);
+  texture = sdl().CreateTexture(renderer, SDL_PIXELFORMAT_RGB24, SDL_TEXTUREACCESS_STREAMING, w, h);
   if (!texture) fail("its picture cannot be made");
-  SDL_RenderSetLogicalSize(renderer, w, h);
+  sdl().RenderSetLogicalSize(renderer, w, h);
   width = w, height = h;
 }
 
 // Drawn by the processor: the graphics device's one context is the renderer's, and the picture is
 // in memory anyway.
 DriveWindow::DriveWindow(const std::string& title, int width, int height) {
-  SDL_SetMainReady();
-  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
-  SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
-  SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
-  SDL_SetHint(SDL_HINT_RENDER_SCALE_QUALITY, "linear");
+  sdl().SetMainReady();
+  sdl().SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+  sdl().SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
+  sdl().SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+  sdl().SetHint(SDL_HINT_RENDER_SCALE_QUALITY, "linear");
   state_ = std::make_unique<State>();
-  if (SDL_Init(SDL_INIT_VIDEO) != 0) fail("no display was found");
+  if (sdl().Init(SDL_INIT_VIDEO) != 0) fail("no display was found");
   // Where SDL finds no screen it may fall back on drawing nowhere.
-  const std::string driver = SDL_GetCurrentVideoDriver();
+  const std::string driver = sdl().GetCurrentVideoDriver();
   if ((driver == "offscreen" || driver == "evdev" || driver == "dummy") &&
-      !std::getenv("SDL_VIDEODRIVER")) {
-    SDL_SetError("only the driver \"%s\" starts, which shows nothing", driver.c_str());
-    fail("no display was found");
-  }
-  SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER);  // without one the keyboard has to do
-  state_->window = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+      !std::getenv("SDL_VIDEODRIVER"))
+    fail("no display was found", "only the driver \"" + driver + "\" starts, which shows nothing");
+  sdl().InitSubSystem(SDL_INIT_GAMECONTROLLER);  // without one the keyboard has to do
+  state_->window = sdl().CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
                                     width, height, SDL_WINDOW_RESIZABLE);
   if (!state_->window) fail("none can be opened");
-  state_->renderer = SDL_CreateRenderer(state_->window, -1, SDL_RENDERER_SOFTWARE);
+  state_->renderer = sdl().CreateRenderer(state_->window, -1, SDL_RENDERER_SOFTWARE);
   if (!state_->renderer) fail("nothing can be drawn in it");
-  SDL_RenderClear(state_->renderer);
-  SDL_RenderPresent(state_->renderer);
+  sdl().RenderClear(state_->renderer);
+  sdl().RenderPresent(state_->renderer);
 }
 
 DriveWindow::~DriveWindow() = default;
@@ -83,7 +81,7 @@ DriveWindow::~DriveWindow() = default;
 std::vector<std::string> DriveWindow::poll(Controls& controls) {
   std::vector<std::string> said;
   SDL_Event event;
-  while (SDL_PollEvent(&event)) {
+  while (sdl().PollEvent(&event)) {
     std::string words = controls.handle(event);
     if (!words.empty()) said.push_back(std::move(words));
   }
@@ -92,14 +90,14 @@ std::vector<std::string> DriveWindow::poll(Controls& controls) {
 
 void DriveWindow::show(const RgbImage& image) {
   state_->fit(image.width, image.height);
-  SDL_UpdateTexture(state_->texture, nullptr, image.rgb.data(), 3 * image.width);
-  SDL_RenderClear(state_->renderer);
-  SDL_RenderCopy(state_->renderer, state_->texture, nullptr, nullptr);
-  SDL_RenderPresent(state_->renderer);
+  sdl().UpdateTexture(state_->texture, nullptr, image.rgb.data(), 3 * image.width);
+  sdl().RenderClear(state_->renderer);
+  sdl().RenderCopy(state_->renderer, state_->texture, nullptr, nullptr);
+  sdl().RenderPresent(state_->renderer);
 }
 
 void DriveWindow::set_title(const std::string& title) {
-  SDL_SetWindowTitle(state_->window, title.c_str());
+  sdl().SetWindowTitle(state_->window, title.c_str());
 }
 
 }  // namespace rubble

@@ -9,6 +9,7 @@
 #include "app/planning/flight.h"
 #include "app/scene/build_scene.h"
 #include "app/sensors/camera_renderers.h"
+#include "app/support/drawing_device.h"
 #include "app/support/print.h"
 #include "kernel/base/parallel.h"
 #include "scripting/sandbox/script_file.h"
@@ -173,8 +174,7 @@ void adapt(DriveWorld& world, const DriveRequest& request) {
 }  // namespace
 
 std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
-                                             std::optional<std::uint64_t> seed, GlContext& context,
-                                             const GoOn& go_on) {
+                                             std::optional<std::uint64_t> seed, const GoOn& go_on) {
   RunRequest of = request.of;
   if (seed) of.seed = seed;
   auto world = std::make_unique<DriveWorld>();
@@ -204,14 +204,15 @@ std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
   drawn.cameras.front().camera.colour = ColourSpec();
   const Scene scene = world->robots ? world->robots->build_scene(drawn)
                                     : build_scene(drawn, world->assets, world->pile);
-  world->renderer = prepare_renderer(scene, drawn.cameras.front().camera.colour, context,
+  world->device = open_device(of.options.gl_device, run.threads());
+  world->renderer = prepare_renderer(scene, drawn.cameras.front().camera.colour, *world->device,
                                      {world->threads,
                                       [&](double fraction) {
                                         run.progress.update(fraction, "light");
                                         go_on();
                                       },
                                       {}});
-  run.progress.finish("ready on " + context.info().renderer);
+  run.progress.finish("ready on " + world->device->info().name);
   return world;
 }
 

@@ -43,6 +43,7 @@ struct DriveWorld {
   DriveLimits limits;                  // the mission's speed limits, where it has any
   std::unique_ptr<PileSurvey> survey;  // of that pile
   std::unique_ptr<RobotDrive> robots;  // driven instead of the camera; none: it flies
+  std::unique_ptr<Device> device;      // that draws
   std::unique_ptr<Renderer> renderer;  // of the scene, lit
   int threads = 1;                     // at least 1
 
@@ -53,11 +54,9 @@ struct DriveWorld {
 // Asked now and then while that takes long; false: the person wants to leave.
 using GoOn = std::function<bool()>;
 
-// Loads the mission with that seed (none: its own) and settles its pile. The context must outlive
-// the world. Throws as `rubble run` does, Stopped when `go_on` was false, and InputError when the
-// camera's body has no room at the entry.
-std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
-                                             std::optional<std::uint64_t> seed, GlContext& context,
+// Loads the mission with that seed (none: its own) and settles its pile. Throws as `rubble run` does, Stopped when
+// `go_on` was false, and InputError when the camera's body has no room at the entry.
+std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request, std::optional<std::uint64_t> seed,
                                              const GoOn& go_on);
 
 }  // namespace rubble

@@ -12,13 +12,12 @@
 #include "app/scene/build_scene.h"
 #include "app/sensors/camera_renderers.h"
 #include "app/sensors/sensor_suite.h"
+#include "app/support/drawing_device.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
 #include "io/base/escaped_text.h"
 #include "io/recording/recording_queue.h"
-#include "render/gl/gl_context.h"
-#include "render/view/drawn_by.h"
 
 namespace rubble {
 namespace {
@@ -31,12 +30,18 @@ void write_legend(const std::vector<std::string>& names, RunFolder& folder) {
   folder.add("labels.csv");
 }
 
-std::map<std::string, std::string> describe_environment(const GlInfo& info, int threads) {
-  return {{"gl_renderer", info.renderer},
-          {"gl_version", info.version},
-          {"egl_device", info.egl_device},
-          {"shading", describe_shading(info)},
-          {"threads", std::to_string(threads)}};
+std::map<std::string, std::string> describe_environment(const DeviceInfo& info, int threads) {
+  std::map<std::string, std::string> out{{"device", info.name}, {"threads", std::to_string(threads)}};
+  out.insert(info.details.begin(), info.details.end());
+  return out;
+}
+
+void say_if_idle(const RunOptions& options) {
+  const bool software = asked_device(options.gl_device) == DeviceKind::software;
+  const std::string card = software && !options.quiet ? find_card() : "";
+  if (card.empty()) return;
+  print_err("note: the graphics card %s is not used: the software device draws, with the same bits on every machine. "
+            "RUBBLE_DEVICE=gl uses the card\n", card.c_str());
 }
 
 std::vector<std::string> names_of_cameras(const Scenario& scenario) {
@@ -131,7 +136,7 @@ std::vector<std::unique_ptr<ExactDepth>> make_told_depths(const ResolvedMission&
 }
 
 PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Seen& seen,
-                        const std::vector<int>& frames_before, GlContext& gl, const RunFolder& folder,
+                        const std::vector<int>& frames_before, Device& device, const RunFolder& folder,
                         RunContext& context, Taking& taking) {
   context.progress.start(leg.window ? "settling scene" : "scene");
   PreparedLeg prepared;
@@ -139,7 +144,7 @@ PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Se
   const CameraRendering rendering{context.threads(), [&](double fraction) { context.progress.update(fraction, "light"); },
                                   [&](double fraction) { taking.report(fraction, folder, context); }};
   prepared.renderers =
-      std::make_unique<CameraRenderers>(scene, mission.scenario.cameras, std::vector<std::size_t>(), gl, rendering);
+      std::make_unique<CameraRenderers>(scene, mission.scenario.cameras, std::vector<std::size_t>(), device, rendering);
   const bool felt = !leg.window && !seen.robots.moved.empty();
   static const RobotReadings nothing_driven;
   std::optional<Scene> felt_scene;
@@ -148,7 +153,7 @@ PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Se
       mission.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before, leg.window.has_value()}, felt_scene ? *felt_scene : scene,
       *prepared.renderers, context.threads(), leg.window ? nothing_driven : seen.robots.readings);
   if (felt) prepared.depths = make_told_depths(mission, seen, context.threads());
-  context.progress.finish("ready on " + gl.info().renderer);
+  context.progress.finish("ready on " + device.info().name + ", " + device.info().about);
   return prepared;
 }
 
@@ -211,10 +216,10 @@ void finish_recording(const ResolvedMission& mission, const Legend& legend, cons
 
 // Frames into files, until the last file is complete.
 void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const Seen& seen,
-            GlContext& gl, RunFolder& folder, RunContext& context, RecordedFrames& recorded) {
+            Device& device, RunFolder& folder, RunContext& context, RecordedFrames& recorded) {
   const PileState& pile = seen.pile.state;
   Taking taking;
-  PreparedLeg prepared = prepare_leg(legs.front(), mission, seen, {}, gl, folder, context, taking);
+  PreparedLeg prepared = prepare_leg(legs.front(), mission, seen, {}, device, folder, context, taking);
   Recording recording = describe_recording(mission.scenario, mission.assets, pile, seen.robots.records);
   recording.mount = seen.robots.mount;
   RecorderSet set = make_recorders({mission.scenario, recording, count_frames(legs, legs.size()),
@@ -226,7 +231,7 @@ void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const 
   for (std::size_t i = 0; i < legs.size(); ++i) {
     if (i > 0) {
       prepared = {};  // what the leg before took on the device comes free first
-      prepared = prepare_leg(legs[i], mission, seen, count_frames(legs, i), gl, folder, context, taking);
+      prepared = prepare_leg(legs[i], mission, seen, count_frames(legs, i), device, folder, context, taking);
     }
     context.progress.start(legs[i].window ? "settling frames" : "render");
     take_samples(prepared, mission.scenario, legs[i], sinks, folder, context, taking, recorded);
@@ -240,11 +245,12 @@ void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const 
 RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& pile,
                              const DrivenRobots& robots, const std::vector<Leg>& legs,
                              RunFolder& folder, RunContext& context) {
-  GlContext gl({context.options.gl_device, context.threads()});
+  say_if_idle(context.options);
+  const std::unique_ptr<Device> device = open_device(context.options.gl_device, context.threads());
   RecordedFrames recorded;
   recorded.hashes = FrameHashes(names_of_cameras(mission.scenario), channels_of_sensors(mission.scenario));
-  recorded.environment = describe_environment(gl.info(), context.threads());
-  record(legs, mission, {pile, robots}, gl, folder, context, recorded);
+  recorded.environment = describe_environment(device->info(), context.threads());
+  record(legs, mission, {pile, robots}, *device, folder, context, recorded);
   return recorded;
 }
 

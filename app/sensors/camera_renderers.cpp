@@ -19,18 +19,18 @@ bool draws_alike(const ColourSpec& a, const ColourSpec& b) {
 
 }  // namespace
 
-std::unique_ptr<Renderer> prepare_renderer(const Scene& scene, const ColourSpec& colour, GlContext& gl,
+std::unique_ptr<Renderer> prepare_renderer(const Scene& scene, const ColourSpec& colour, Device& device,
                                            const CameraRendering& options) {
   RenderOptions of;
   of.threads = options.threads;
   of.colour = colour;
   of.image_progress = options.on_image;
   of.cache_folder = DiskCache::usual_folder();
-  return std::make_unique<Renderer>(gl, scene, of, options.on_light);
+  return std::make_unique<Renderer>(device, scene, of, options.on_light);
 }
 
 CameraRenderers::CameraRenderers(const Scene& scene, const std::vector<MountedCamera>& cameras,
-                                 const std::vector<std::size_t>& drawn, GlContext& gl, const CameraRendering& options)
+                                 const std::vector<std::size_t>& drawn, Device& device, const CameraRendering& options)
     : of_camera_(cameras.size(), cameras.size()) {
   std::vector<ColourSpec> colours;
   for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
@@ -46,7 +46,7 @@ CameraRenderers::CameraRenderers(const Scene& scene, const std::vector<MountedCa
       one.on_light = [&, done = double(renderers_.size())](double share) {
         options.on_light((done + share) / double(colours.size()));
       };
-    renderers_.push_back(prepare_renderer(scene, colour, gl, one));
+    renderers_.push_back(prepare_renderer(scene, colour, device, one));
   }
 }
 

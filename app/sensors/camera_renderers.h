@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "kernel/base/parallel.h"
-#include "render/gl/gl_context.h"
 #include "render/rays/depth_rays.h"
 #include "render/renderer.h"
 #include "render/scene/scene.h"
@@ -22,16 +21,16 @@ struct CameraRendering {
   std::function<void(double)> on_image;  // of a path-traced image; may throw to stop
 };
 
-// The scene, lit for these colours, on the device of `gl`.
-std::unique_ptr<Renderer> prepare_renderer(const Scene& scene, const ColourSpec& colour, GlContext& gl,
+// The scene, lit for these colours.
+std::unique_ptr<Renderer> prepare_renderer(const Scene& scene, const ColourSpec& colour, Device& device,
                                            const CameraRendering& options);
 
 class CameraRenderers {
  public:
-  // drawn: numbers of the cameras that will be drawn; empty: all. The context must outlive this. Throws RunError as Renderer
+  // drawn: numbers of the cameras that will be drawn; empty: all. The device must outlive this. Throws RunError as Renderer
   // does.
   CameraRenderers(const Scene& scene, const std::vector<MountedCamera>& cameras, const std::vector<std::size_t>& drawn,
-                  GlContext& gl, const CameraRendering& options);
+                  Device& device, const CameraRendering& options);
 
   // Of one of the cameras that are drawn.
   Renderer& of(std::size_t camera) { return *renderers_[of_camera_.at(camera)]; }

@@ -9,12 +9,12 @@
 #include "app/control/script_control.h"
 #include "app/sensors/camera_renderers.h"
 #include "app/sensors/camera_sensor.h"
+#include "app/support/drawing_device.h"
 #include "kernel/world/world_robots.h"
 
 namespace rubble {
 
 struct LiveColoursOptions {
-  int gl_device = -1;           // see GlContextOptions
   int threads = 1;
   Renderer::Progress progress;  // of the light
 };
@@ -26,16 +26,16 @@ struct LiveColoursOptions {
 class LiveColours {
  public:
   // scene: shows everything where the history of the sensors has it. drawn: numbers of the cameras. Throws RunError as
-  // GlContext and Renderer do.
-  LiveColours(const Scene& scene, const std::vector<MountedCamera>& cameras, const std::vector<std::size_t>& drawn,
-              const LiveColoursOptions& options)
-      : gl_({options.gl_device, options.threads}),
-        renderers_(scene, cameras, drawn, gl_, {options.threads, options.progress, {}}) {}
+  // Renderer does.
+  LiveColours(std::unique_ptr<Device> device, const Scene& scene, const std::vector<MountedCamera>& cameras,
+              const std::vector<std::size_t>& drawn, const LiveColoursOptions& options)
+      : device_(std::move(device)),
+        renderers_(scene, cameras, drawn, *device_, {options.threads, options.progress, {}}) {}
 
   Renderer& renderer_of(std::size_t camera) { return renderers_.of(camera); }
 
  private:
-  GlContext gl_;
+  std::unique_ptr<Device> device_;
   CameraRenderers renderers_;
 };
 
@@ -146,8 +146,8 @@ void Session::make_sensors() {
   for (const std::size_t i : depths) sensors_.push_back({make_depth_sensor(parts, i), scenario_.cameras[i].ride});
   if (!colours.empty() && !colours_)
     colours_ = std::make_unique<LiveColours>(
-        scene, scenario_.cameras, colours,
-        LiveColoursOptions{context_.options.gl_device, context_.threads(), [this](double done) {
+        open_device(context_.options.gl_device, context_.threads()), scene, scenario_.cameras, colours,
+        LiveColoursOptions{context_.threads(), [this](double done) {
                              context_.progress.update(0, "light " + std::to_string(int(100 * done)) + " %");
                            }});
   for (const std::size_t i : colours)

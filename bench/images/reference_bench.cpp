@@ -21,7 +21,7 @@
 #include "kernel/base/system/thread_count.h"
 #include "kernel/base/system/disk_cache.h"
 #include "render/colour/frame_light.h"
-#include "render/gl/gl_context.h"
+#include "render/devices/software/software_device.h"
 #include "render/passes/antialias.h"
 #include "render/reference/display.h"
 #include "render/renderer.h"
@@ -42,8 +42,8 @@ struct Drawn {
   double seconds = 0, processor = 0;  // of the image alone
 };
 
-Drawn draw(GlContext& context, const Scene& scene, const ViewRays& view, const RenderOptions& options) {
-  Renderer renderer(context, scene, options);
+Drawn draw(Device& device, const Scene& scene, const ViewRays& view, const RenderOptions& options) {
+  Renderer renderer(device, scene, options);
   const auto start = std::chrono::steady_clock::now();
   const std::clock_t processor = std::clock();
   Drawn out{renderer.render_linear(view), 0, 0};
@@ -91,7 +91,7 @@ void print_statistics(const char* name, const char* quality, const Picture& pict
               drawn.processor);
 }
 
-void compare(GlContext& context, const GalleryPicture& picture, GalleryPiles& piles, const Request& request,
+void compare(Device& device, const GalleryPicture& picture, GalleryPiles& piles, const Request& request,
              int threads) {
   MissionOptions changes;
   changes.overrides = picture.set;
@@ -107,7 +107,7 @@ void compare(GlContext& context, const GalleryPicture& picture, GalleryPiles& pi
   options.colour = {RenderQuality::reference, request.samples, request.denoise};
   // Without a cache unless asked, for its time.
   options.cache_folder = request.reuse ? DiskCache::usual_folder() : "";
-  const Drawn slow = draw(context, scene, view, options);
+  const Drawn slow = draw(device, scene, view, options);
   const int width = slow.frame.width, height = slow.frame.height;
   const float exposure = find_exposure({0.21, 0}, meter_image(slow.frame.rgb, width, height, gains));
   const Picture expected = develop(slow.frame, gains, exposure);
@@ -119,7 +119,7 @@ void compare(GlContext& context, const GalleryPicture& picture, GalleryPiles& pi
   options.colour = {};
   options.bake_rays = request.bake_rays;
   options.cache_folder = DiskCache::usual_folder();
-  const Drawn fast = draw(context, scene, view, options);
+  const Drawn fast = draw(device, scene, view, options);
   const Picture found = develop_fast(fast.frame, gains, exposure, threads);
   save(request, picture.name + "_fast", found);
   print_statistics(picture.name.c_str(), "fast", found, fast);
@@ -135,14 +135,14 @@ ExitCode bench(const Request& request) {
   const int threads =
       request.threads > 0 ? request.threads : default_thread_count();
   const Gallery list = load_gallery(request.list);
-  GlContext context({-1, threads});
+  SoftwareDevice device;
   GalleryPiles piles;
   std::printf("| view | renderer | gradient kurtosis | flat share | SIFT/MP | slope | s | CPU s | "
               "mean error %% | bias %% | SSIM |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const GallerySection& section : list.sections)
     for (const GalleryPicture& picture : section.pictures)
       if (picture.name.find(request.only) != std::string::npos)
-        compare(context, picture, piles, request, threads);
+        compare(device, picture, piles, request, threads);
   return ExitCode::done;
 }
 

@@ -25,6 +25,12 @@ constexpr float kAxisTolerance = 0.0005F;
 constexpr float kNearestShiftCosine = 0.9F;
 // A point of the previous step is retained while its two ends are not farther apart than this; unit: m.
 constexpr float kRetainDistance = 0.004F;
+// Contacts of pieces that move farther than this against each other in a step are searched where they will meet: levers
+// that are taken at the step's start would change their angular momentum. unit: m
+constexpr float kLongTravel = 0.02F;
+// Pieces that are nearer to each other than this have met. unit: m
+constexpr float kMeetingGap = 0.002F;
+constexpr int kMostAdvances = 6;  // steps of the search for the time when two meet. unit: 1
 // A point is retained only while the normal has turned by at most 8 degrees since the last search.
 constexpr float kRetainCosine = 0.99F;
 
@@ -216,9 +222,10 @@ void store(Contact& contact, const Manifold& m, const Vec3f& normal, const Posed
   }
 }
 
-// The points along an axis; none where the parts stay apart in this step.
+// The points along an axis; none where the parts stay apart in this step. elapsed: where the two are as they will be
+// after this part of the step. unit: s
 void make_points(Contact& contact, const PosedBody& a, const PosedBody& b, const Vec3f& offset,
-                 const Axis& axis, float margin, const NarrowSettings& settings) {
+                 const Axis& axis, float margin, const NarrowSettings& settings, float elapsed = 0) {
   Manifold& m = begin_manifold();
   clip_faces(a.part, b.part, offset, axis.normal, margin, m);
   add_axis_point(m, axis);
@@ -227,6 +234,8 @@ void make_points(Contact& contact, const PosedBody& a, const PosedBody& b, const
   contact.rolls_b = rolls(b, axis.normal, settings.step);
   if (contact.rolls_a) carry_below_axis(m, axis.normal, a.angular, {});
   if (contact.rolls_b) carry_below_axis(m, axis.normal, b.angular, offset);
+  if (elapsed > 0) predict(m, a, &b, offset, axis.normal, -elapsed);
+  for (int i = 0; i < m.count && elapsed > 0; ++i) m.points[i].separation = m.points[i].predicted;
   predict(m, a, &b, offset, axis.normal, settings.step);
   drop_far_points(m);
   if (m.count == 0) {
@@ -237,6 +246,61 @@ void make_points(Contact& contact, const PosedBody& a, const PosedBody& b, const
   note_known(contact, a, &b, offset, axis.normal, m);
   reduce(m, axis.normal, Contact::kMaxPoints);
   store(contact, m, axis.normal, a, &b, offset);
+}
+
+// A body as it will be after a part of the step.
+class MovedBody {
+ public:
+  MovedBody(const PosedBody& body, float seconds) : moved(body) {
+    const Vec3f half = body.angular * (0.5F * seconds);
+    const Mat3f turned = normalized(QuatT<float>{1, half.x, half.y, half.z}).matrix();
+    rotation_ = turned * *body.part.rotation;
+    corners_.resize(std::size_t(body.part.corners.count));
+    for (std::size_t i = 0; i < corners_.size(); ++i) corners_[i] = turned * body.part.corners.points[i];
+    moved.part.corners.points = corners_.data();
+    moved.part.rotation = &rotation_;
+    moved.centre += Vec3(body.linear) * double(seconds);
+  }
+  MovedBody(const MovedBody&) = delete;
+  MovedBody& operator=(const MovedBody&) = delete;
+
+  PosedBody moved;
+
+ private:
+  Mat3f rotation_;
+  std::vector<Vec3f> corners_;
+};
+
+float calc_reach(const PosedBody& body) {
+  float squared = 0;
+  for (int i = 0; i < body.part.corners.count; ++i) {
+    squared = std::max(squared, dot(body.part.corners.points[i], body.part.corners.points[i]));
+  }
+  return std::sqrt(squared);
+}
+
+// When two that move against each other fast meet: conservative advancement (Mirtich 1996) of their translation. 0: they
+// touch already, or are slow; kNoMeeting: they pass each other. unit: s
+constexpr float kNoMeeting = -1;
+float find_meeting(Contact& contact, const PosedBody& a, const PosedBody& b, const NarrowSettings& settings) {
+  const Vec3f offset = Vec3f(b.centre - a.centre), v = b.linear - a.linear;
+  const float travel = norm(v) * settings.step;
+  if (travel < kLongTravel) return 0;
+  const float turning = settings.step * (norm(a.angular) * calc_reach(a) + norm(b.angular) * calc_reach(b));
+  float time = 0;
+  for (int i = 0; i < kMostAdvances; ++i) {
+    const float margin = travel + turning + kPointMargin;
+    const GjkResult gjk = calc_distance(a.part.corners, b.part.corners, offset + v * time, margin, contact.cache);
+    if (gjk.kind == GjkResult::Kind::beyond_margin) return 0;
+    if (gjk.kind == GjkResult::Kind::overlapping) return time;
+    const float closing = -dot(gjk.normal, v);
+    if (gjk.distance > std::max(0.0F, closing) * (settings.step - time) + turning + kPointMargin) return kNoMeeting;
+    if (gjk.distance < kMeetingGap || closing <= 0) return time;
+    const float next = time + (gjk.distance - 0.5F * kMeetingGap) / closing;
+    if (next >= settings.step) return time;
+    time = next;
+  }
+  return time;
 }
 
 }  // namespace
@@ -274,7 +338,21 @@ void follow_contact(Contact& contact, const PosedBody& a, const PosedBody& b) {
 }
 
 float update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, float margin,
-                     const NarrowSettings& settings) {
+                     const NarrowSettings& settings, bool free) {
+  const float meeting = free ? find_meeting(contact, a, b, settings) : 0;
+  if (meeting == kNoMeeting) {
+    clear_points(contact);
+    return 0;
+  }
+  if (meeting > 0) {
+    const MovedBody later_a(a, meeting), later_b(b, meeting);
+    const Vec3f offset = Vec3f(later_b.moved.centre - later_a.moved.centre);
+    Axis axis;
+    if (find_axis(contact, later_a.moved.part, later_b.moved.part, offset, margin, axis)) {
+      make_points(contact, later_a.moved, later_b.moved, offset, axis, margin, settings, meeting);
+      return 0;
+    }
+  }
   const Vec3f offset = Vec3f(b.centre - a.centre);
   Axis axis;
   if (!find_axis(contact, a.part, b.part, offset, margin, axis)) {

@@ -127,7 +127,7 @@ RUBBLE_INLINE Slip<T> find_slip(T limit, const T* masses, const T* sticking) {
   for (int i = 0;; ++i) {
     T fall{}, x2[3];
     for (int k = 0; k < 3; ++k) {
-      const T share = one / (one + s * masses[k]), x = sticking[k] * share;
+      const T share = i == 0 ? one : one / (one + s * masses[k]), x = sticking[k] * share;
       x2[k] = x * x;
       fall = fall + x2[k] * masses[k] * share;
     }

@@ -27,8 +27,11 @@ inline constexpr float kSwingingSpin = 10.0F;
 inline constexpr float kRollingLever = 0.001F;
 // Largest angular speed that contacts give a piece. Lever arms are those of the beginning of the step: if a
 // piece turns by more than half a radian in a step, the contact acts at a wrong place and adds spin. Not for
-// pieces that roll, see kernel/collision/rolling.h. unit: rad/s
+// pieces that roll, see kernel/collision/rolling.h, nor for pieces that are struck hard. unit: rad/s
 inline constexpr float kFreeSpin = 30.0F;
+// A piece that is struck at a closing speed above this may turn at that speed over its radius, which is about what one
+// impact gives at most. Pieces of a pile that settles fall more slowly. unit: m/s
+inline constexpr float kHardStrike = 10.0F;
 // Largest gain of angular speed by contacts in a step, for a piece that turns faster than this limit. unit: rad/s
 inline constexpr float kSpinGain = 3.0F;
 

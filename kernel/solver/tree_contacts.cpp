@@ -128,7 +128,10 @@ void TreeContacts::solve_driven_friction(Item& item, double limit, View& view) {
 
 template <int sides>
 void TreeContacts::solve_normals(Item& item, double per_substep, const View& moved, View& view) {
-  for (int i = 0; i < item.rows; ++i) {
+  // There, back, back and there again, as the sweeps over free pieces.
+  const bool backwards = !item.driven && (round_ % 4 == 1 || round_ % 4 == 2);
+  for (int k = 0; k < item.rows; ++k) {
+    const int i = backwards ? item.rows - 1 - k : k;
     NormalRow& n = rows_[item.first_row + std::size_t(i)];
     const double gap = n.gap + n.row.relative<sides>(moved);
     const double next =
@@ -257,6 +260,7 @@ void TreeContacts::start(const Item& item, PaddedMotion* speeds) const {
 }
 
 void TreeContacts::begin_substep(PaddedMotion* speeds, bool first, double weight) {
+  round_ = first ? 0 : round_ + 1;
   for (std::int32_t index : sequence_) {
     Item& item = items_[std::size_t(index)];
     if (!first) note_total(item), clamp_accumulated_impulses(item, weight);

@@ -164,6 +164,7 @@ class TreeContacts {
   std::vector<NormalRow> rows_;
   std::vector<SpatialMatrix> crosses_;
   double substep_ = 0;  // unit: s
+  int round_ = 0;       // number of the substep in its step
 };
 
 }  // namespace rubble

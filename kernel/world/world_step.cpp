@@ -84,6 +84,7 @@ void World::step() {
   w.note_touching();
   w.limits.clamp_ejections(w.step_pairs, w.motions);
   w.limits.find_rolling(w.step_pairs, w.motions);
+  w.limits.find_strikes(w.step_pairs, w.motions);
   w.begin_stage(StepStage::motion);
   w.advance.run(w.step_pairs, w.motions, w.solution, w.limits);
   w.trees.advance();

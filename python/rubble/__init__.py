@@ -17,12 +17,16 @@ for _place in ("assets", _os.path.join("..", "..", "assets")):
     if "RUBBLE_ASSETS" not in _os.environ and _os.path.isdir(_beside):
         _os.environ["RUBBLE_ASSETS"] = _beside
 
-from ._core import InputError, Pile, RunError, __version__, open_pile, set_sandbox, settle  # noqa: E402
+from ._core import InputError, Pile, RunError, __version__, open_pile, set_sandbox  # noqa: E402
+from .batches import Batch, RayExecutor, batch  # noqa: E402
 from .dataset import Dataset, open_dataset  # noqa: E402
 from .geometry import compose, look_at, matrix, pose, rotate  # noqa: E402
+from .mission_text import settle  # noqa: E402
+from .missions import Mission  # noqa: E402
+from .program import run  # noqa: E402
 from .robots import RobotWorld, Session  # noqa: E402
 from .sensors import DepthCamera, Lidar, Renderer  # noqa: E402
 
-__all__ = ["Dataset", "DepthCamera", "InputError", "Lidar", "Pile", "Renderer", "RobotWorld", "RunError",
-           "Session", "__version__", "compose", "look_at", "matrix", "open_dataset", "open_pile", "pose", "rotate",
-           "set_sandbox", "settle"]
+__all__ = ["Batch", "Dataset", "DepthCamera", "InputError", "Lidar", "Mission", "Pile", "RayExecutor", "Renderer",
+           "RobotWorld", "RunError", "Session", "__version__", "batch", "compose", "look_at", "matrix", "open_dataset", "open_pile",
+           "pose", "rotate", "run", "set_sandbox", "settle"]

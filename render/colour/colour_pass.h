@@ -1,40 +1,30 @@
-// Colours every pixel once, from the triangle that was found there: by the graphics device, or by
-// the processor where the device is a software driver, which is slower. The formulas are the same;
-// pictures differ by a step of 8 bits here and there.
+// Colours every pixel once, from the triangle that was found there. The formulas are the same on every device; pictures
+// differ by a step of 8 bits here and there.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
-#include "kernel/base/parallel.h"
 #include "render/camera/projection.h"
 #include "render/colour/frame_light.h"
-#include "render/geometry/geometry.h"
-#include "render/geometry/ground_map.h"
 #include "render/lighting/exposure.h"
-#include "render/materials/textures.h"
 #include "render/passes/glass_layers.h"
-#include "render/shading/wide_shader.h"
 
 namespace rubble {
 
 // Which triangle each pixel shows, and how far it is.
 struct SurfaceImages {
-  const GlTexture* ids;    // as VisibilityPass::ids(); null where the processor shades
-  const GlTexture* depth;  // near / Z; null where the processor shades
-  const std::vector<float>& depth_values;  // the same
-  const std::uint32_t* id_values;          // as ids; null where the device shades
+  const std::uint32_t* ids;                // as TriangleRaster::ids(); null with in_raster alone
+  const std::vector<float>& depth_values;  // near / Z
+  bool in_raster = false;                  // both lie in the raster of the device, too
   // Of an image whose pixels have rays of their own, as RayPass has them; null: a pinhole.
-  const GlTexture* lens_rays = nullptr;  // null where the processor shades
-  const GlTexture* row_poses = nullptr;  // null with lens_rays
-  const float* ray_values = nullptr;     // the same: four a pixel
-  const float* pose_values = nullptr;    // twelve a row of pixels
+  const float* ray_values = nullptr;   // four a pixel
+  const float* pose_values = nullptr;  // twelve a row of pixels
+  std::uint64_t lens = 0;              // another number whenever ray_values are others
   const std::vector<GlassLayer>* behind = nullptr;  // glass; null: as none
 
   bool through_glass() const { return behind && !behind->empty(); }
-
-  bool has_rays() const { return lens_rays || ray_values; }
+  bool has_rays() const { return ray_values; }
 };
 
 class ColourPass {
@@ -59,16 +49,5 @@ class ColourPass {
   static constexpr int kMeterEvery =
       4;  // of pixels in each direction, one is metered; as METER in resolve.frag.glsl
 };
-
-// What they refer to must outlive them.
-std::unique_ptr<ColourPass> make_gl_colour_pass(const Gl& gl, const GpuGeometry& geometry,
-                                                const FrameLight& light, const GroundMap& ground,
-                                                const std::vector<PatternImage>& patterns, ThreadPool& pool);
-std::unique_ptr<ColourPass> make_processor_colour_pass(const PreparedScene& scene,
-                                                       const GpuGeometry& geometry,
-                                                       const FrameLight& light,
-                                                       const GroundMap& ground,
-                                                       const std::vector<PatternImage>& patterns,
-                                                       const WideShader& shader, ThreadPool& pool);
 
 }  // namespace rubble

@@ -3,7 +3,7 @@
 
 #include "render/lighting/lighting.h"
 #include "render/media/air_volume.h"
-#include "render/passes/shadow_pass.h"
+#include "render/passes/shadow_views.h"
 
 namespace rubble {
 
@@ -18,7 +18,7 @@ struct MeanFog {
 
 struct FrameLight {
   const LightSet* lights = nullptr;      // of the place; never null
-  const ShadowMap* shadow = nullptr;     // of these lights; never null
+  const ShadowViews* shadow = nullptr;   // of these lights; never null
   LampSpec lamp;                         // on the carrier below
   bool clear_air = true;                 // at all times
   double wetness = 0;                    // of surfaces
@@ -31,7 +31,7 @@ struct FrameLight {
   const Pose* world_from_rig = nullptr;  // of what bears the lamp; null: the camera does
   std::uint64_t noise = 0;               // as ViewRays::noise
   bool soft_sun = true;                  // its shadows have a penumbra
-  // Light that arrives at the nodes; never null where the processor shades.
+  // Light that arrives at the nodes; never null.
   const std::vector<BakedLight>* nodes = nullptr;
 };
 

@@ -1,18 +1,26 @@
 // Where a view's lamp is.
 #pragma once
 
-#include "render/colour/contact_pass.h"
 #include "render/colour/frame_light.h"
 #include "render/scene/scene.h"
 
 namespace rubble {
+
+inline constexpr float kContactReach = 0.04f;  // how far a hollow darkens: less than baked light resolves; unit: m
+
+// The lamp as what throws shadows on the image.
+struct ContactLamp {
+  bool on = false;   // false: no shadows of the lamp are looked for
+  Vec3f place;       // in the optical frame; unit: m
+  float radius = 0;  // unit: m
+};
 
 struct ViewLamp {
   Pose bearer;        // of the lamp, in the world
   Vec3 in_optical;    // its place in the optical frame; unit: m
   double offset = 0;  // from the eye; unit: m
 
-  ContactPass::Lamp contact(bool on, const FrameLight& light) const {
+  ContactLamp contact(bool on, const FrameLight& light) const {
     return {on, Vec3f(in_optical),
             light.lamp.shape == LampShape::point ? 0.004f : float(light.lamp.size / 2)};
   }

@@ -1,4 +1,4 @@
-// The scene's geometry on the graphics device, and the lists of what to draw of it.
+// A scene as it is drawn: prepared meshes, and where they stand.
 #pragma once
 
 #include <array>
@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "render/geometry/prepared_mesh.h"
-#include "render/gl/gl_objects.h"
 #include "render/materials/paint_layers.h"
 #include "render/scene/frame.h"
 #include "render/scene/scene.h"
@@ -65,38 +64,5 @@ struct BakedLight {
 struct LightRange {
   std::size_t begin, end;
 };
-
-// What the shaders read. Binding points are in shaders/geometry.glsl.
-struct GpuGeometry {
-  using Texel = std::array<std::uint32_t, 4>;
-  // The tables of the shaders, for shading on the processor; else empty.
-  struct Tables {
-    std::vector<Texel> vertices, triangles, placed, paint;
-  };
-  bool on_processor = false;  // that is who shades
-  Tables tables;
-  GlBuffer vertices, indices, triangles, placed, light;
-  GlTexture vertices_view, triangles_view, placed_view, light_view;
-  // See shaders/paint.glsl; nothing where paint_count is 0.
-  GlBuffer paint;
-  GlTexture paint_view, paint_images;
-  std::size_t paint_count = 0;
-  int paint_side = 1;  // of the images; unit: texel
-  std::vector<std::uint32_t> first_index;   // of each prepared mesh, in `indices`
-  std::vector<std::uint32_t> first_vertex;  // likewise, in `vertices`
-  // A drawn pixel names its triangle by that triangle's last vertex, which is its own. From the
-  // name to the triangle's number in its prepared mesh, and back: name of triangle t of mesh m is
-  // name_of_triangle[first_index[m] / 3 + t].
-  std::vector<std::uint32_t> triangle_of_name, name_of_triangle;
-};
-// on_processor: keeps the tables for it, and light is not handed over.
-GpuGeometry upload_geometry(const Gl& gl, const PreparedScene& scene,
-                            const std::vector<BakedLight>& light, bool on_processor);
-// Where the pieces are now, and the light on them.
-void update_poses(const Gl& gl, const PreparedScene& scene, GpuGeometry& geometry);
-void update_light(const Gl& gl, const GpuGeometry& geometry, const std::vector<BakedLight>& light);
-// Of light that is new in these ranges alone.
-void update_light(const Gl& gl, const GpuGeometry& geometry, const std::vector<BakedLight>& light,
-                  const std::vector<LightRange>& changed);
 
 }  // namespace rubble

@@ -21,9 +21,9 @@ float behind(float distance) { return distance * (1 + 1e-5f) + 1e-4f; }
 
 }  // namespace
 
-GlassRays::GlassRays(const PreparedScene& scene, const GpuGeometry& geometry, SceneRays& rays, int threads)
+GlassRays::GlassRays(const PreparedScene& scene, const TriangleNames& names, SceneRays& rays, int threads)
     : scene_(scene),
-      geometry_(geometry),
+      names_(names),
       threads_(threads),
       rays_(rays),
       sheets_(scene) {}
@@ -31,7 +31,7 @@ GlassRays::GlassRays(const PreparedScene& scene, const GpuGeometry& geometry, Sc
 bool GlassRays::shows_glass(const std::uint32_t* ids) const {
   if (!ids[0]) return false;
   const PreparedMesh& mesh = scene_.meshes[scene_.placed[ids[0] - 1].mesh];
-  return mesh.glass && mesh.triangles[geometry_.triangle_of_name[ids[1]]].material == glass_appearance();
+  return mesh.glass && mesh.triangles[names_.triangle_of_name[ids[1]]].material == glass_appearance();
 }
 
 bool GlassRays::begin_layer(const ViewRays& view, const std::uint32_t* ids, GlassLayer& out) {
@@ -81,7 +81,7 @@ void GlassRays::cast(const RayScene& solid, const ViewRays& view, const Pixel& p
   }
   const RayScene::Triangle& t = glass ? sheets_.triangles()[hit.triangle] : solid.triangles()[hit.triangle];
   id[0] = t.placed + 1;
-  id[1] = geometry_.name_of_triangle[geometry_.first_index[scene_.placed[t.placed].mesh] / 3 + t.source];
+  id[1] = names_.name(scene_.placed[t.placed].mesh, t.source);
   value = kNearPlane * slope / hit.distance;
 }
 

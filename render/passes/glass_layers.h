@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "render/camera/view_rays.h"
-#include "render/geometry/geometry.h"
+#include "render/geometry/scene_tables.h"
 #include "render/geometry/glass_sheets.h"
 #include "render/geometry/scene_rays.h"
 
@@ -17,7 +17,7 @@ struct GlassLayer {
   static constexpr float kDark = -1e-30f;  // a depth value: the inside of a thing, from which no light comes
   static constexpr int kBlock = 4;         // side; unit: pixel
 
-  std::vector<std::uint32_t> ids;    // two a pixel, as VisibilityPass::ids()
+  std::vector<std::uint32_t> ids;    // two a pixel, as TriangleRaster::ids()
   std::vector<float> depth_values;   // near / Z as RayPass has them for rays; 0: nothing
   std::vector<std::uint8_t> blocks;  // in rows, of kBlock x kBlock pixels: 1 where a sheet was taken away
   int blocks_across = 0;
@@ -29,7 +29,7 @@ class GlassRays {
   static constexpr std::size_t kMostLayers = 3;  // sheets behind as many are not there
 
   // What they refer to must outlive it.
-  GlassRays(const PreparedScene& scene, const GpuGeometry& geometry, SceneRays& rays, int threads);
+  GlassRays(const PreparedScene& scene, const TriangleNames& names, SceneRays& rays, int threads);
 
   // Outermost first; none: no pixel shows glass. ids, depth_values: of the view, as in GlassLayer.
   std::vector<GlassLayer> find(const ViewRays& view, const std::uint32_t* ids, const std::vector<float>& depth_values);
@@ -44,7 +44,7 @@ class GlassRays {
   void cast(const RayScene& solid, const ViewRays& view, const Pixel& pixel, bool last, GlassLayer& out) const;
 
   const PreparedScene& scene_;
-  const GpuGeometry& geometry_;
+  const TriangleNames& names_;
   int threads_;
   SceneRays& rays_;
   GlassSheets sheets_;

@@ -109,7 +109,7 @@ std::vector<GroundTruthMaker::Seen> GroundTruthMaker::see_row(const DrawnView& v
     seen.world_from_optical = pose;
     seen.pixel.placed = placed - 1;
     seen.pixel.piece = &scene_.placed[placed - 1];
-    seen.pixel.triangle = geometry_.triangle_of_name[view.ids[i * 2 + 1]];
+    seen.pixel.triangle = names_.triangle_of_name[view.ids[i * 2 + 1]];
     seen.pixel.world = seen.point;
     seen.instance = seen.pixel.piece->id;
     seen.label = seen.pixel.piece->label;
@@ -184,7 +184,7 @@ std::vector<float> GroundTruthMaker::albedos(const DrawnView& view) const {
       if (!view.ids[i * 2]) continue;
       Pixel pixel;
       pixel.piece = &scene_.placed[view.ids[i * 2] - 1];
-      pixel.triangle = geometry_.triangle_of_name[view.ids[i * 2 + 1]];
+      pixel.triangle = names_.triangle_of_name[view.ids[i * 2 + 1]];
       const Corners c = corners_of(pixel);
       const Vec3 area = cross(c.points[1] - c.points[0], c.points[2] - c.points[0]);
       const Vec3 up = normalized(pixel.piece->world_from_mesh.rotation.rotate(area));

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "render/camera/view_rays.h"
-#include "render/geometry/geometry.h"
 #include "render/geometry/moving_pieces.h"
 #include "render/geometry/scene_rays.h"
+#include "render/geometry/scene_tables.h"
 #include "render/scene/camera_spec.h"
 #include "render/scene/frame.h"
 
@@ -19,7 +19,7 @@ using TruthImages = decltype(Frame::truth);
 // What is needed of a view that was drawn.
 struct DrawnView {
   const ViewRays& rays;                   // as they were drawn
-  const std::vector<std::uint32_t>& ids;  // two a pixel, as VisibilityPass::ids()
+  const std::vector<std::uint32_t>& ids;  // two a pixel, as TriangleRaster::ids()
   const std::vector<float>& distances;    // along the ray; NaN: nothing there; unit: m
   const ViewRays* next;                   // the next image's; null: there is none
   MovingPieces::Shift shift = {};         // of what moves, until the next image
@@ -27,8 +27,8 @@ struct DrawnView {
 
 class GroundTruthMaker {
  public:
-  GroundTruthMaker(const PreparedScene& scene, const GpuGeometry& geometry, SceneRays& rays, int threads)
-      : scene_(scene), geometry_(geometry), rays_(rays), threads_(threads) {}
+  GroundTruthMaker(const PreparedScene& scene, const TriangleNames& names, SceneRays& rays, int threads)
+      : scene_(scene), names_(names), rays_(rays), threads_(threads) {}
 
   // Makes these streams of ground truth.
   void fill(const StreamSet& streams, const DrawnView& view, TruthImages& truth);
@@ -52,7 +52,7 @@ class GroundTruthMaker {
                        ImageValues& image);
 
   const PreparedScene& scene_;
-  const GpuGeometry& geometry_;
+  const TriangleNames& names_;
   SceneRays& rays_;
   const RayScene* free_ = nullptr;  // all as they stood when they were last asked for
   int threads_;

@@ -20,32 +20,19 @@ bool same_pinhole(const Intrinsics& a, const Intrinsics& b) {
 
 }  // namespace
 
-RayPass::RayPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry, SceneRays& rays, int threads,
-                 bool textures)
-    : gl_(gl),
-      scene_(scene),
-      geometry_(geometry),
-      threads_(threads),
-      textures_(textures),
-      rays_(rays) {}
+RayPass::RayPass(const PreparedScene& scene, const TriangleNames& names, SceneRays& rays, int threads)
+    : scene_(scene), names_(names), threads_(threads), rays_(rays) {}
 
 void RayPass::resize(const ViewRays& view) {
   const int width = view.intrinsics.width, height = view.intrinsics.height;
   if (width == width_ && height == height_) return;
   width_ = width, height_ = height;
-  if (textures_) {
-    ids_ = make_target(gl_, GL_RG32UI, width, height);
-    depth_ = make_target(gl_, GL_R32F, width, height);
-    lens_rays_ = make_target(gl_, GL_RGBA32F, width, height);
-    row_poses_ = make_target(gl_, GL_RGBA32F, 3, height);
-  }
   directions_.reset();
   own_directions_ = false;
   const std::size_t size = std::size_t(width) * std::size_t(height);
-  id_values_.resize(size * 2);
+  ids_.resize(size * 2);
   depth_values_.resize(size);
   distances_.resize(size);
-  check_gl(gl_, "making the images of a lens");
 }
 
 void RayPass::find_lens(const ViewRays& view) {
@@ -61,9 +48,7 @@ void RayPass::find_lens(const ViewRays& view) {
     const Vec3f r = d * (1 / std::max(d.z, kLeastCosine));
     ray_values_.insert(ray_values_.end(), {r.x, r.y, r.z, 0.0f});
   }
-  if (textures_)
-    gl_.TextureSubImage2D(lens_rays_.name(), 0, 0, 0, width_, height_, GL_RGBA, GL_FLOAT,
-                          ray_values_.data());
+  ++lens_;
 }
 
 void RayPass::find_poses(const ViewRays& view) {
@@ -75,8 +60,6 @@ void RayPass::find_poses(const ViewRays& view) {
       pose_values_.insert(pose_values_.end(), {float(r.rows[i].x), float(r.rows[i].y), float(r.rows[i].z),
                                                float(pose.translation[i])});
   }
-  if (textures_)
-    gl_.TextureSubImage2D(row_poses_.name(), 0, 0, 0, 3, height_, GL_RGBA, GL_FLOAT, pose_values_.data());
 }
 
 // Where the ray meets the triangle's plane, in double precision. A sliver, whose plane its corners
@@ -101,7 +84,7 @@ void RayPass::cast_row(const ViewRays& view, int v) {
   const Vec3f eye(pose.translation);
   for (int u = 0; u < width_; ++u) {
     const std::size_t i = std::size_t(v) * std::size_t(width_) + std::size_t(u);
-    id_values_[i * 2] = id_values_[i * 2 + 1] = 0;
+    ids_[i * 2] = ids_[i * 2 + 1] = 0;
     depth_values_[i] = 0;
     distances_[i] = std::numeric_limits<float>::quiet_NaN();
     const Vec3f d = (*directions_)[i];
@@ -118,10 +101,8 @@ void RayPass::cast_row(const ViewRays& view, int v) {
     if (hit.triangle == RayScene::kNone || hit.back) continue;
     const RayScene::Triangle& triangle = scene_rays_->triangles()[hit.triangle];
     const double t = exact_distance(triangle, pose.translation, along, double(hit.distance));
-    const std::uint32_t mesh = scene_.placed[triangle.placed].mesh;
-    id_values_[i * 2] = triangle.placed + 1;
-    id_values_[i * 2 + 1] =
-        geometry_.name_of_triangle[geometry_.first_index[mesh] / 3 + triangle.source];
+    ids_[i * 2] = triangle.placed + 1;
+    ids_[i * 2 + 1] = names_.name(scene_.placed[triangle.placed].mesh, triangle.source);
     distances_[i] = float(t);
     depth_values_[i] = kNearPlane * slope / float(t);
   }
@@ -133,12 +114,6 @@ void RayPass::draw(const ViewRays& view) {
   find_poses(view);
   scene_rays_ = &rays_.all();
   parallel_for(std::size_t(height_), threads_, [&](std::size_t v) { cast_row(view, int(v)); });
-  if (!textures_) return;
-  gl_.TextureSubImage2D(ids_.name(), 0, 0, 0, width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT,
-                        id_values_.data());
-  gl_.TextureSubImage2D(depth_.name(), 0, 0, 0, width_, height_, GL_RED, GL_FLOAT,
-                        depth_values_.data());
-  check_gl(gl_, "handing the cast rays over");
 }
 
 std::vector<float> RayPass::planar_depth() const {

@@ -11,9 +11,8 @@
 #include <vector>
 
 #include "render/camera/view_rays.h"
-#include "render/geometry/geometry.h"
 #include "render/geometry/scene_rays.h"
-#include "render/gl/gl_objects.h"
+#include "render/geometry/scene_tables.h"
 
 namespace rubble {
 
@@ -21,19 +20,15 @@ class RayPass {
  public:
   static constexpr float kLeastCosine = 0.05f;
 
-  // textures: false: those below stay empty.
-  RayPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry, SceneRays& rays, int threads,
-          bool textures);
+  // What they refer to must outlive it.
+  RayPass(const PreparedScene& scene, const TriangleNames& names, SceneRays& rays, int threads);
 
   void draw(const ViewRays& view);
 
-  const GlTexture& ids() const { return ids_; }  // as VisibilityPass::ids()
-  const GlTexture& depth() const { return depth_; }
-  const GlTexture& lens_rays() const { return lens_rays_; }
-  const GlTexture& row_poses() const { return row_poses_; }
-  const std::vector<std::uint32_t>& id_values() const { return id_values_; }
-  const std::vector<float>& ray_values() const { return ray_values_; }    // as lens_rays(), four a pixel
-  const std::vector<float>& pose_values() const { return pose_values_; }  // as row_poses(), twelve a row
+  const std::vector<std::uint32_t>& ids() const { return ids_; }          // two a pixel, as TriangleRaster::ids()
+  const std::vector<float>& ray_values() const { return ray_values_; }    // r, four a pixel
+  std::uint64_t lens() const { return lens_; }                            // another number whenever those are others
+  const std::vector<float>& pose_values() const { return pose_values_; }  // world_from_optical, twelve a row of pixels
   const std::vector<float>& depth_values() const { return depth_values_; }
   const std::vector<float>& distances() const { return distances_; }  // NaN: nothing; unit: m
   // Along the optical axis; NaN where there is nothing or it lies beside or behind the camera.
@@ -47,19 +42,17 @@ class RayPass {
   double exact_distance(const RayScene::Triangle& triangle, const Vec3& eye, const Vec3& direction,
                         double about) const;
 
-  const Gl& gl_;
   const PreparedScene& scene_;
-  const GpuGeometry& geometry_;
+  const TriangleNames& names_;
   int threads_;
-  bool textures_;
   SceneRays& rays_;
   const RayScene* scene_rays_ = nullptr;              // as the view is drawn
   std::shared_ptr<const LensDirections> directions_;  // of the lens that is there
   Intrinsics pinhole_;                                // what they were made for ...
   bool own_directions_ = false;                       // ... when the view came without
-  GlTexture ids_, depth_, lens_rays_, row_poses_;
+  std::uint64_t lens_ = 0;
   int width_ = 0, height_ = 0;
-  std::vector<std::uint32_t> id_values_;
+  std::vector<std::uint32_t> ids_;
   std::vector<float> depth_values_, distances_, ray_values_, pose_values_;
 };
 

@@ -1,19 +1,20 @@
-// Which triangle each pixel shows, and its depth: by the graphics device, or by the processor where
-// the device is a software driver, which is slower at small triangles.
+// Which triangle each pixel shows, and its depth, as a device finds them.
 //
-// Both give the depth of the triangle's plane under the pixel's centre, exact within the rounding of
+// All give the depth of the triangle's plane under the pixel's centre, exact within the rounding of
 // floats at any distance and slant, whatever a device interpolates.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "render/camera/projection.h"
-#include "render/geometry/geometry.h"
-#include "render/raster/software_raster.h"
 
 namespace rubble {
+
+// Neighbouring clusters of a placed mesh.
+struct ClusterRun {
+  std::uint32_t placed, first_cluster, cluster_count;  // number of the mesh, and its clusters
+};
 
 class TriangleRaster {
  public:
@@ -23,21 +24,13 @@ class TriangleRaster {
   virtual void draw(const std::vector<ClusterRun>& runs) = 0;
   // near / Z (0: nothing) of what was drawn since begin(), rows from the top; good enough to cull by.
   virtual const std::vector<float>& depth_so_far() = 0;
-  // Ends the image: from now on what follows is there.
+  // Ends the image: from now on what follows is there, until the next begin().
   virtual void finish() = 0;
 
   virtual const std::vector<float>& depth_values() const = 0;  // near / Z, exact
-  virtual const GlTexture& depth() const = 0;                  // the same
-  virtual const GlTexture& ids() const = 0;  // placed mesh + 1 (0: nothing), triangle's name
-  virtual std::vector<std::uint32_t> read_ids() const = 0;     // two numbers a pixel
-  // The same where they lie, until the next begin(); null: only on the device.
-  virtual const std::uint32_t* id_values() const { return nullptr; }
+  // Two numbers a pixel: placed mesh + 1 (0: nothing) and the triangle's name. Null: they lie on the device alone.
+  virtual const std::uint32_t* ids() const = 0;
+  virtual std::vector<std::uint32_t> read_ids() const = 0;  // the same, copied from there
 };
-
-std::unique_ptr<TriangleRaster> make_gl_raster(const Gl& gl, const PreparedScene& scene,
-                                               const GpuGeometry& geometry);
-// textures: false: ids() and depth() stay empty.
-std::unique_ptr<TriangleRaster> make_software_raster(const Gl& gl, const PreparedScene& scene,
-                                                     const GpuGeometry& geometry, int threads, bool textures);
 
 }  // namespace rubble

@@ -13,12 +13,10 @@ constexpr std::size_t kJobPieces = 32;
 
 }  // namespace
 
-VisibilityPass::VisibilityPass(const Gl& gl, const PreparedScene& scene,
-                               const GpuGeometry& geometry, const VisibilityOptions& options)
+VisibilityPass::VisibilityPass(const PreparedScene& scene, TriangleRaster& raster, const VisibilityOptions& options)
     : scene_(scene),
       options_(options),
-      raster_(options.software ? make_software_raster(gl, scene, geometry, options.threads, options.textures)
-                               : make_gl_raster(gl, scene, geometry)),
+      raster_(raster),
       pool_(std::max(1, options.threads)),
       shown_(scene.cluster_flags, 0),
       drawn_(scene.cluster_flags, 0) {}
@@ -137,16 +135,16 @@ void VisibilityPass::draw(const ViewProjection& view) {
   if (!cull) have_history_ = false;
   choose(view, false);
   counts_ = {run_triangles_, run_triangles_};
-  raster_->begin(view);
-  raster_->draw(runs_);
+  raster_.begin(view);
+  raster_.draw(runs_);
   if (cull) {
-    pyramid_.build(raster_->depth_so_far().data(), view.intrinsics.width, view.intrinsics.height);
+    pyramid_.build(raster_.depth_so_far().data(), view.intrinsics.width, view.intrinsics.height);
     choose(view, true);
     counts_.triangles += run_triangles_;
     have_history_ = true;
-    if (!runs_.empty()) raster_->draw(runs_);
+    if (!runs_.empty()) raster_.draw(runs_);
   }
-  raster_->finish();
+  raster_.finish();
 }
 
 }  // namespace rubble

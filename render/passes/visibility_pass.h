@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "render/camera/culling.h"
@@ -19,27 +18,16 @@ struct VisibilityOptions {
   // Use coarser levels where a level-0 triangle would be about this small on the image; 0: always
   // the finest. unit: pixel
   double coarse_below = 0;
-  bool software = false;  // draw on the processor, see triangle_raster.h
-  bool textures = true;   // ids() and depth() are wanted; false: they may be empty
-  int threads = 1;        // for that
+  int threads = 1;
 };
 
 class VisibilityPass {
  public:
-  VisibilityPass(const Gl& gl, const PreparedScene& scene, const GpuGeometry& geometry,
-                 const VisibilityOptions& options);
+  // What they refer to must outlive it.
+  VisibilityPass(const PreparedScene& scene, TriangleRaster& raster, const VisibilityOptions& options);
 
-  // Draws into textures of the image's size.
+  // Leaves the view in the raster.
   void draw(const ViewProjection& view);
-
-  // placed mesh + 1, last vertex of its triangle
-  const GlTexture& ids() const { return raster_->ids(); }
-  const GlTexture& depth() const { return raster_->depth(); }  // near / Z
-  const std::vector<float>& depth_values() const { return raster_->depth_values(); }  // the same
-
-  // Two numbers a pixel, as ids().
-  std::vector<std::uint32_t> read_ids() const { return raster_->read_ids(); }
-  const std::uint32_t* id_values() const { return raster_->id_values(); }  // see TriangleRaster
 
   struct Counts {
     std::size_t triangles = 0, first_batch = 0;  // drawn; of these before any depth was known
@@ -66,7 +54,7 @@ class VisibilityPass {
 
   const PreparedScene& scene_;
   VisibilityOptions options_;
-  std::unique_ptr<TriangleRaster> raster_;
+  TriangleRaster& raster_;
   std::vector<Candidate> candidates_;
   ThreadPool pool_;
   std::vector<Chosen> chosen_;  // one a job

@@ -42,7 +42,7 @@ struct ShadingData {
 
   struct Light {
     int type = 0;                   // 0 directional, 1 spot, 2 point
-    int first_view = 0, views = 1;  // layers of the shadow map, as ShadowMap::Light
+    int first_view = 0, views = 1;  // layers of the shadow map, as ShadowViews::Light
   };
   Light lights[kMostShadedLights];  // the main one first
   int light_count = 0;              // range: 1 to kMostShadedLights

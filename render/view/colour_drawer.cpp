@@ -79,7 +79,7 @@ ViewProjection projection_of(const ViewRays& view) {
 
 ColourDrawer::ColourDrawer(LitScene& scene)
     : scene_(scene), pool_(std::max(1, scene.options.threads)) {
-  resolve_ = make_pass();
+  restart();
   if (scene.is_traced())
     reference_ = std::make_unique<ReferencePass>(
         ReferenceSurroundings{scene.scene, scene.light, scene.patterns, scene.ground_map,
@@ -87,15 +87,9 @@ ColourDrawer::ColourDrawer(LitScene& scene)
         reference_options(scene.options, scene.seed));
 }
 
-void ColourDrawer::restart() { resolve_ = make_pass(); }
-
-std::unique_ptr<ColourPass> ColourDrawer::make_pass() {
-  const FrameLight& light = scene_.frame_light;
-  if (scene_.shades_on_processor())
-    return make_processor_colour_pass(scene_.scene, scene_.geometry, light, scene_.ground_map,
-                                      scene_.patterns,
-                                      find_wide_shader(scene_.options.instruction_set), pool_);
-  return make_gl_colour_pass(scene_.gl, scene_.geometry, light, scene_.ground_map, scene_.patterns, pool_);
+void ColourDrawer::restart() {
+  if (!scene_.is_traced())
+    resolve_ = scene_.on_device->make_colour_pass(scene_.frame_light, scene_.ground_map, scene_.patterns, pool_);
 }
 
 FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surfaces,
@@ -169,7 +163,6 @@ void ColourDrawer::draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces,
     light_and_expose();
   }
   resolve_->draw(projection, view.world_from_camera, images, light, image.exposure, metered);
-  scene_.gl.Finish();
   image.resolve = start.time();
   const Stopwatch read;
   resolve_->read(rgba);

@@ -39,7 +39,6 @@ class ColourDrawer {
   // What depends on the view: where its lamp is, and the air before it.
   // drops_drawn: as AirVolume::build().
   FrameLight light_view(const ViewRays& view, DrawnSurfaces& surfaces, bool drops_drawn);
-  std::unique_ptr<ColourPass> make_pass();
   std::vector<float> trace(const ViewRays& view) const;
   void draw_traced(const ViewRays& view, std::optional<float> exposure,
                    std::vector<std::uint8_t>& rgba, ColourImage& image) const;
@@ -51,7 +50,7 @@ class ColourDrawer {
   LitScene& scene_;
   ThreadPool pool_;
   AirVolume air_volume_;
-  std::unique_ptr<ColourPass> resolve_;
+  std::unique_ptr<ColourPass> resolve_;        // none: colours are path traced
   std::unique_ptr<ReferencePass> reference_;  // none: colours are the resolve pass's
 };
 

@@ -8,7 +8,6 @@
 #include "render/media/air_box.h"
 #include "render/reference/image_key.h"
 #include "render/transport/drawn_albedo.h"
-#include "render/view/drawn_by.h"
 
 namespace rubble {
 
@@ -60,10 +59,9 @@ bool shines(const PreparedScene& scene) {
 
 }  // namespace
 
-LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
+LitScene::LitScene(Device& d, const Scene& s, const RenderOptions& o,
                    const std::function<void(double)>& progress)
-    : context(c),
-      gl(c.gl()),
+    : device(d),
       options(o),
       scene(prepare_scene(s, o.threads)),
       rays(scene),
@@ -82,7 +80,7 @@ LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
   links_ = std::move(baked.links);
   for (const Vec3f& r : links_.radiance) radiance_.push_back({{r.x, r.y, r.z, 0}});
   links_.radiance = {};
-  geometry = upload_geometry(gl, scene, baked.nodes, shades_on_processor());
+  on_device = device.load(scene, light, baked.nodes, {o.threads, o.shadow_size, !is_traced(), o.instruction_set});
   if (moving.any()) {
     const LookSurfaces surfaces(scene, patterns, ground_map, s.wetness);
     live_light = std::make_unique<LiveLight>(scene, resting_light, std::move(baked.nodes),
@@ -90,9 +88,8 @@ LitScene::LitScene(GlContext& c, const Scene& s, const RenderOptions& o,
   } else {
     baked_nodes_ = std::move(baked.nodes);
   }
-  shadow = std::make_unique<ShadowPass>(gl, scene, geometry, light, o.shadow_size, shades_on_processor());
-  shadow->draw_moving();  // nothing yet
-  frame_light = {&light, &shadow->map(), s.lamp, medium.clear(), s.wetness, most_gloss(scene), shines(scene), scene.surrounded};
+  if (moving.any()) on_device->move();  // carried lights, and nothing else yet
+  frame_light = {&light, is_traced() ? nullptr : &on_device->shadows(), s.lamp, medium.clear(), s.wetness, most_gloss(scene), shines(scene), scene.surrounded};
   frame_light.soft_sun = options.colour.quality != RenderQuality::draft;
   frame_light.glass = scene.glass;
   frame_light.nodes = &clear_nodes();
@@ -130,12 +127,11 @@ BakedScene LitScene::bake(double wetness, const std::function<void(double)>& pro
 
 void LitScene::move_to(std::int64_t stamp_ns) {
   if (!moving.move_to(stamp_ns)) return;
-  update_poses(gl, scene, geometry);
   place_carried_lights();
+  on_device->move();
   if (is_traced()) return;  // the path tracer follows the scene itself
   live_light->update();
   surfaces_changed_ = true;
-  shadow->draw_moving();
 }
 
 void LitScene::light_air(std::int64_t stamp_ns) {
@@ -157,14 +153,8 @@ void LitScene::light_air(std::int64_t stamp_ns) {
 
 void LitScene::show_light(const std::vector<BakedLight>& shown, const std::vector<LightRange>* changed) {
   frame_light.nodes = &shown;
-  if (changed)
-    update_light(gl, geometry, shown, *changed);
-  else
-    update_light(gl, geometry, shown);
+  on_device->set_light(shown, changed);
 }
-
-bool LitScene::rasters_on_processor() const { return drawn_by_processor(options.raster, context.info()); }
-bool LitScene::shades_on_processor() const { return drawn_by_processor(options.shading, context.info()); }
 
 // What is not there does not shine.
 void LitScene::place_carried_lights() {

@@ -1,20 +1,19 @@
-// A scene on the device, lit: all that does not depend on the camera. Internal to render/.
+// A scene on a device, lit: all that does not depend on the camera. Internal to render/.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <memory>
 
+#include "render/device/device.h"
 #include "render/geometry/geometry.h"
 #include "render/geometry/ground_map.h"
 #include "render/geometry/moving_pieces.h"
 #include "render/geometry/scene_rays.h"
-#include "render/gl/gl_context.h"
 #include "render/lighting/bake.h"
 #include "render/lighting/live_light.h"
 #include "render/media/medium.h"
 #include "render/colour/frame_light.h"
-#include "render/passes/shadow_pass.h"
 #include "render/scene/scene.h"
 #include "render/transport/lamp_bounce.h"
 #include "render/view/render_options.h"
@@ -22,14 +21,13 @@
 namespace rubble {
 
 struct LitScene {
-  // progress: called with the done fraction, 0 to 1. The context must outlive the scene.
-  LitScene(GlContext& context, const Scene& scene, const RenderOptions& options,
+  // progress: called with the done fraction, 0 to 1. The device must outlive the scene.
+  LitScene(Device& device, const Scene& scene, const RenderOptions& options,
            const std::function<void(double)>& progress);
   LitScene(const LitScene&) = delete;  // its parts refer to each other
   LitScene& operator=(const LitScene&) = delete;
 
-  GlContext& context;                     // must be current in every call
-  const Gl& gl;                           // of that context
+  Device& device;                         // must be current in every call
   RenderOptions options;                  // as given
   PreparedScene scene;                    // as it stands at the moment of the last move_to()
   SceneRays rays;                         // of that scene
@@ -42,14 +40,10 @@ struct LitScene {
   Medium medium;                          // fog, smoke and dust
   std::int64_t start_ns;                  // the stamp at which the time of the medium is zero
   std::uint64_t seed;                     // as Scene::seed
-  GpuGeometry geometry;                   // the scene on the device, or where the processor shades it
-  std::unique_ptr<ShadowPass> shadow;     // never null
+  std::unique_ptr<DeviceScene> on_device;  // never null
   std::unique_ptr<LiveLight> live_light;  // where something moves
   FrameLight frame_light;                 // without what depends on the view
 
-  // Who draws triangles and colours.
-  bool rasters_on_processor() const;  // triangles
-  bool shades_on_processor() const;   // colours
   // Colours are path traced: nothing of the light is baked or lit live.
   bool is_traced() const { return options.colour.quality == RenderQuality::reference; }
   // Puts what moves where it is at that stamp, and lights it there.
@@ -77,7 +71,7 @@ struct LitScene {
   const std::vector<BakedLight>& clear_nodes() const { return live_light ? live_light->light() : baked_nodes_; }
   const std::vector<BakedLight>& nodes() { return fog_light() ? weakened_nodes_ : clear_nodes(); }
 
-  // The light of an image: handed to the device, or noted for the processor. changed: where it differs from what was
+  // The light of an image: handed to the device. changed: where it differs from what was
   // shown before; null: anywhere.
   void show_light(const std::vector<BakedLight>& light, const std::vector<LightRange>* changed = nullptr);
 

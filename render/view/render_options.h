@@ -9,9 +9,6 @@
 
 namespace rubble {
 
-// Who draws: automatic: the graphics device, unless it is a software driver.
-enum class DrawnBy { automatic, device, processor };
-
 struct RenderOptions {
   // Where textures and baked light are kept from run to run, see DiskCache; "": nowhere.
   std::string cache_folder;
@@ -20,9 +17,7 @@ struct RenderOptions {
   int bake_rays = 512;     // a bake point at most; range: 8 to 1024
   int shadow_size = 4096;  // side of the main light's shadow map; unit: texel
   int texture_size = 512;  // side of the procedural textures; a power of two
-  DrawnBy raster = DrawnBy::automatic;   // the triangles; the image is the same but for ties of depth
-  DrawnBy shading = DrawnBy::automatic;  // the colours; the image is the same but for steps of 8 bits here and there
-  // Of the shading on the processor, as WideShader::name: all give the same bits; "": the fastest that it can run.
+  // Of the shading by the software device, as WideShader::name: all give the same bits; "": the fastest that it can run.
   std::string instruction_set;
   bool occlusion_culling = true;  // false: draws all that is in the view; the image is the same
   double coarse_below = 0;    // allow coarser levels for triangles about this small; unit: pixel;

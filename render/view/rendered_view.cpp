@@ -39,7 +39,7 @@ struct RenderedView::State {
   ~State() {
     if (!surfaces) return;
     try {
-      source.scene.context.make_current();  // for what it has on the device
+      source.scene.device.make_current();  // for what it has on the device
     } catch (const RunError&) {
       // The driver frees it with the context.
     }
@@ -52,7 +52,7 @@ struct RenderedView::State {
 };
 
 DrawnSurfaces& RenderedView::State::drawn() {
-  source.scene.context.make_current();
+  source.scene.device.make_current();
   if (!surfaces) {
     const Stopwatch start;
     surfaces = std::make_unique<DrawnSurfaces>(source.surfaces, rays);

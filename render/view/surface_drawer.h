@@ -25,7 +25,8 @@ class SurfaceDrawer {
   friend class DrawnSurfaces;
 
   LitScene& scene_;
-  VisibilityPass visibility_;
+  TriangleRaster& raster_;     // of the device
+  VisibilityPass visibility_;  // draws into that
   std::unique_ptr<RayPass> rays_;     // made when a view first needs it
   std::unique_ptr<GlassRays> glass_;  // likewise
   // Whose the images of the two passes are now.
@@ -48,7 +49,7 @@ class DrawnSurfaces {
   SurfaceImages images();
   // Of images(): depth values of the farthest that is seen in each pixel, through glass.
   const std::vector<float>& depth_behind();
-  const std::vector<std::uint32_t>& ids();            // two a pixel, as VisibilityPass::ids()
+  const std::vector<std::uint32_t>& ids();            // two a pixel, as TriangleRaster::ids()
   std::vector<LampBounce::Shown> shown();              // the triangles in images(), some more than once
   const std::vector<float>& depth_values();           // near / Z; as RayPass has them for rays
   const std::vector<float>& planar_depth();           // NaN: nothing; unit: m
@@ -62,10 +63,10 @@ class DrawnSurfaces {
   void draw();
   void save();
   bool in_pass() const;
+  bool in_raster() const { return drawer_.in_visibility_ == this; }
+  const std::uint32_t* ids_in_place();  // the same where they lie; null: on the device alone
   SurfaceImages front_images();
-  SurfaceImages images_in_memory();
   void find_behind(const std::uint32_t* ids);
-  void upload();
 
   SurfaceDrawer& drawer_;
   ViewRays view_;
@@ -73,7 +74,6 @@ class DrawnSurfaces {
   std::vector<std::uint32_t> ids_;  // each empty until first asked for
   std::vector<float> planar_depth_, distances_;
   std::vector<float> saved_depth_values_;
-  GlTexture saved_ids_, saved_depth_;
   std::vector<GlassLayer> behind_;  // glass
   bool found_behind_ = false;
 };

@@ -10,13 +10,13 @@
 namespace rubble {
 
 struct ViewSource {
-  ViewSource(GlContext& context, const Scene& s, const RenderOptions& options,
+  ViewSource(Device& device, const Scene& s, const RenderOptions& options,
              const std::function<void(double)>& progress)
-      : scene(context, s, options, progress),
+      : scene(device, s, options, progress),
         surfaces(scene),
         colours(scene),
         drops(scene),
-        truth(scene.scene, scene.geometry, scene.rays, options.threads) {}
+        truth(scene.scene, scene.on_device->names(), scene.rays, options.threads) {}
 
   LitScene scene;          // as prepared by the renderer
   SurfaceDrawer surfaces;  // of that scene

@@ -230,12 +230,12 @@ TEST(CommandLine, NoticesAStandardOutputThatTakesNothing) {
 TEST(Info, NamesTheRendererAndTheLibraries) {
   const Outcome info = run_rubble("info");
   ASSERT_EQ(info.exit_code, 0) << info.err;
-  for (const char* name : {"rubble", "EGL", "renderer", "threads", "Simbody", "MRPT", "OpenCV"})
+  for (const char* name : {"rubble", "software", "gl", "threads", "Simbody", "MRPT", "OpenCV"})
     EXPECT_NE(info.out.find(name), std::string::npos) << name << " in\n" << info.out;
 }
 
 TEST(Info, SaysWhatWasTriedWithoutAWorkingEgl) {
-  const Outcome info = run_rubble("info", "RUBBLE_EGL_DEVICE=99");
+  const Outcome info = run_rubble("info --gl", "RUBBLE_EGL_DEVICE=99");
   EXPECT_EQ(info.exit_code, 2);
   EXPECT_NE(info.err.find("RUBBLE_EGL_DEVICE"), std::string::npos) << info.err;
 }

@@ -15,7 +15,7 @@ namespace egl_test {
   return ::testing::AssertionSuccess();
 }
 
-Outcome with_fake_egl(const std::string& stage, const std::string& arguments = "info") {
+Outcome with_fake_egl(const std::string& stage, const std::string& arguments = "info --gl") {
   return run_rubble(arguments, "RUBBLE_EGL_LIBRARY='" RUBBLE_FAKE_EGL "' FAKE_EGL=" + stage);
 }
 
@@ -75,21 +75,21 @@ TEST(InfoGl, SaysWhyADeviceWasChosen) {
 TEST(MissingEgl, ALibraryThatDoesNotLoadIsNamed) {
   const ScratchFolder folder;
   write_file(folder / "libEGL.so.1", "no library at all");
-  const Outcome info = run_rubble("info", "RUBBLE_EGL_LIBRARY='" + (folder / "libEGL.so.1") + "'");
+  const Outcome info = run_rubble("info --gl", "RUBBLE_EGL_LIBRARY='" + (folder / "libEGL.so.1") + "'");
   EXPECT_EQ(info.exit_code, 2);
   EXPECT_TRUE(holds(info.err, {"libEGL.so.1 does not load", "libegl1"}));
-  const Outcome other = run_rubble("info", "RUBBLE_EGL_LIBRARY=libm.so.6");
+  const Outcome other = run_rubble("info --gl", "RUBBLE_EGL_LIBRARY=libm.so.6");
   EXPECT_TRUE(holds(other.err, {"the EGL library has no eglGetProcAddress"}));
 }
 
 TEST(MissingEgl, AVariableThatHidesTheDriversIsNamed) {
-  const Outcome files = run_rubble("info", "__EGL_VENDOR_LIBRARY_FILENAMES=/nowhere/50_none.json");
+  const Outcome files = run_rubble("info --gl", "__EGL_VENDOR_LIBRARY_FILENAMES=/nowhere/50_none.json");
   EXPECT_EQ(files.exit_code, 2);
   EXPECT_TRUE(holds(files.err, {"__EGL_VENDOR_LIBRARY_FILENAMES=/nowhere/50_none.json is set",
                                 "there is no /nowhere/50_none.json", "try without it"}));
   const ScratchFolder empty;
   const Outcome folder =
-      run_rubble("info", "__EGL_VENDOR_LIBRARY_DIRS='" + empty.path().string() + "'");
+      run_rubble("info --gl", "__EGL_VENDOR_LIBRARY_DIRS='" + empty.path().string() + "'");
   EXPECT_EQ(folder.exit_code, 2);
   EXPECT_TRUE(holds(folder.err, {"__EGL_VENDOR_LIBRARY_DIRS=", "drivers are looked for only there"}));
 }
@@ -104,7 +104,7 @@ TEST(MissingEgl, AContainersDriverThatCannotDrawIsNamed) {
 }
 
 TEST(MissingEgl, ADriverTooOldIsNamed) {
-  const Outcome info = run_rubble("info", "MESA_GL_VERSION_OVERRIDE=3.3");
+  const Outcome info = run_rubble("info --gl", "MESA_GL_VERSION_OVERRIDE=3.3");
   EXPECT_EQ(info.exit_code, 2);
   EXPECT_TRUE(holds(info.err, {"no OpenGL 4.5 core context", "MESA_GL_VERSION_OVERRIDE=3.3 is set"}));
 }
@@ -117,6 +117,45 @@ TEST(MissingEgl, ARunSaysSoBeforeItHasDrawnAnything) {
                                  "");
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_TRUE(holds(run.err, {"there is no EGL device 42", "EGL lists"}));
+}
+
+// The software device opens no library of graphics: this one is nowhere.
+const char* const kNoEgl = "RUBBLE_EGL_LIBRARY=/nowhere/libEGL.so.1";
+
+TEST(SoftwareDevice, DrawsWhereThereIsNoEgl) {
+  const ScratchFolder folder;
+  write_file(folder / "tiny.lua", kTinyMission);
+  const std::string run = "run '" + (folder / "tiny.lua") + "' --quiet --out '";
+  const Outcome plain = run_rubble(run + (folder / "plain") + "'", kNoEgl);
+  EXPECT_EQ(plain.exit_code, 0) << plain.err;
+  EXPECT_TRUE(holds(read_file(folder / "plain/manifest.json"), {"\"device\": \"software\""}));
+  const Outcome info = run_rubble("info", kNoEgl);
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_TRUE(holds(info.out, {"software: the processor, by"}));
+  // The control: what asks for a card says what is missing.
+  const Outcome card = run_rubble(run + (folder / "card") + "'", std::string(kNoEgl) + " RUBBLE_DEVICE=gl");
+  EXPECT_EQ(card.exit_code, 2);
+  EXPECT_TRUE(holds(card.err, {"/nowhere/libEGL.so.1 does not load"}));
+}
+
+TEST(GlDevice, IsNotedInTheManifest) {
+  const ScratchFolder folder;
+  write_file(folder / "tiny.lua", kTinyMission);
+  const Outcome run =
+      run_rubble("run '" + (folder / "tiny.lua") + "' --quiet --out '" + (folder / "out") + "'", "RUBBLE_DEVICE=gl");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(holds(read_file(folder / "out/manifest.json"), {"\"device\": \"gl\"", "\"gl_renderer\""}));
+  const Outcome verified = run_rubble("verify '" + (folder / "out") + "' --quiet", "RUBBLE_DEVICE=gl");
+  EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+}
+
+TEST(Devices, AreNamedWhereOneIsUnknown) {
+  const ScratchFolder folder;
+  write_file(folder / "tiny.lua", kTinyMission);
+  const std::string run = "run '" + (folder / "tiny.lua") + "' --quiet --out '" + (folder / "out") + "'";
+  const Outcome variable = run_rubble(run, "RUBBLE_DEVICE=vulkan");
+  EXPECT_EQ(variable.exit_code, 1);
+  EXPECT_TRUE(holds(variable.err, {"RUBBLE_DEVICE", "software or gl", "vulkan"}));
 }
 
 // A millionth of a second is too short for any light.

@@ -16,7 +16,7 @@
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/queries/queries.h"
-#include "render/gl/gl_context.h"
+#include "render/devices/software/software_device.h"
 #include "render/renderer.h"
 #include "tests/app/program.h"
 #include "tests/app/tiny_run.h"
@@ -50,8 +50,8 @@ Settled settle_here(const ScratchFolder& folder) {
   RunRequest request;
   request.mission = folder / "m.lua", request.options.quiet = true, request.options.threads = 2;
   RunContext context(request.options);
-  Settled settled{resolve_mission(request, RunKind::settle, context), {}};
-  settled.pile = settle_in_memory(settled.mission, context, [] { return true; }).state;
+  Settled settled{resolve_mission(request, RunKind::settle, device), {}};
+  settled.pile = settle_in_memory(settled.mission, device, [] { return true; }).state;
   return settled;
 }
 
@@ -102,11 +102,11 @@ TEST(FinesRun, DepthAndLabelsAreThoseOfTheTrueMeshes) {
   const Scenario& scenario = settled.mission.scenario;
   const AssetLibrary& assets = settled.mission.assets;
   const PileQueries queries(settled.pile, assets.finest_meshes());
-  GlContext context({-1, 2});
+  SoftwareDevice device;
   RenderOptions options;
   options.threads = 2, options.bake = false;
   const Scene scene = build_scene(scenario, assets, settled.pile);
-  Renderer renderer(context, scene, options);
+  Renderer renderer(device, scene, options);
   Intrinsics k;
   k.width = 320, k.height = 240, k.fx = k.fy = 220, k.cx = 159.5, k.cy = 119.5;
   const Pose eye{portable::quat_from_rpy(0, 0.6, 0.78), {-0.4, -0.4, 0.8}};

@@ -110,12 +110,27 @@ Allowed stack(const Prefixes& rooms, const Prefixes& others) {
   return allowed;
 }
 
-const Allowed kRender = stack(
-    {"render/scene/", "render/streams/", "render/gl/", "render/camera/", "render/materials/", "render/sky/", "render/geometry/",
-     "render/lighting/", "render/shading/", "render/media/", "render/raster/", "render/passes/", "render/colour/",
-     "render/transport/", "render/reference/", "render/view/", "render/renderer.", "render/optics/", "render/sensors/",
-     "render/rays/", "render/lidar/"},
-    {"kernel/base/"});
+// Below what draws; then the interface of devices, and all that knows it alone.
+const Prefixes kBelowDevices{"kernel/base/", "render/scene/", "render/streams/", "render/camera/", "render/materials/", "render/sky/",
+                             "render/geometry/", "render/lighting/", "render/shading/", "render/media/", "render/passes/",
+                             "render/colour/", "render/device/"};
+
+Allowed render_rooms() {
+  // Devices know nothing of each other, and OpenGL is known to one of them.
+  Allowed rooms{{"render/gl/", {"kernel/base/", "render/gl/"}},
+                {"render/devices/software/", with(kBelowDevices, {"render/devices/software/"})},
+                {"render/devices/gl/", with(kBelowDevices, {"render/gl/", "render/devices/gl/"})},
+                {"render/devices/", {"render/device/", "render/devices/", "render/scene/"}}};
+  const Allowed others = stack(
+      with(Prefixes(kBelowDevices.begin() + 1, kBelowDevices.end()),
+           {"render/transport/", "render/reference/", "render/view/", "render/renderer.", "render/optics/",
+            "render/sensors/", "render/rays/", "render/lidar/"}),
+      {"kernel/base/"});
+  rooms.insert(rooms.end(), others.begin(), others.end());
+  return rooms;
+}
+
+const Allowed kRender = render_rooms();
 
 const Allowed kIo = stack(
     {"io/base/", "io/image/", "io/import/", "io/mesh_formats/", "io/mesh/", "io/state/", "io/robot/", "io/scenes/", "io/recording/", "io/ros/", "io/mrpt/",
@@ -214,6 +229,9 @@ TEST(IncludeDirection, TheCheckSeesACrossing) {
   EXPECT_EQ(crossings("io/ros/bag_writer.cpp", "io/base/compressed_file.h"), 0u);
   EXPECT_EQ(crossings("io/voids/vdb_file.cpp", "io/ros/ros_wire.h"), 1u);
   EXPECT_EQ(crossings("render/renderer.cpp", "render/sensors/camera.h"), 1u);
+  EXPECT_EQ(crossings("render/renderer.cpp", "render/devices/software/software_device.h"), 1u);
+  EXPECT_EQ(crossings("render/devices/software/shadow_map.h", "render/devices/gl/gl_device.h"), 1u);
+  EXPECT_EQ(crossings("render/view/lit_scene.h", "render/gl/gl.h"), 1u);
   EXPECT_EQ(crossings("render/sensors/camera.cpp", "render/renderer.h"), 0u);
   EXPECT_EQ(crossings("scripting/scenario/scenario.h", "scripting/mission.h"), 1u);
   EXPECT_EQ(crossings("app/mission/resolved_mission.cpp", "app/commands/inspect_dataset.h"), 1u);
@@ -228,12 +246,14 @@ const std::map<std::string, Prefixes> kDoors{
     {"xxhash.h", {"kernel/base/"}},
     {"openssl/", {"kernel/base/"}},
     {"embree", {"kernel/base/system/embree.h"}},
+    {"render/gl/", {"render/gl/", "render/devices/gl/"}},
+    {"render/devices/", {"render/devices/", "app/support/drawing_device.h", "app/commands/info.cpp", "bench/"}},
     {"EGL/", {"render/gl/"}},
     {"GL/", {"render/gl/"}},
     {"assimp/", {"io/mesh_formats/assimp_reader.cpp"}},
     {"draco/", {"io/mesh_formats/draco_decoder.cpp"}},
     {"expat.h", {"io/base/xml_document.cpp"}},
-    {"pybind11/", {"python/"}},
+    {"nanobind/", {"python/"}},
     {"opencv2/", {"bench/images/picture_file.cpp", "io/image/", "io/recording/contact_sheet.cpp", "io/voids/void_picture.cpp"}},
     {"mrpt/", {"io/mrpt/", "io/playback/rawlog_pictures.cpp"}},
     {"rosbag/", {"io/ros/"}},

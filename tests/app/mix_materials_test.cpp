@@ -63,7 +63,7 @@ TEST(MixMaterials, AreDrawnByTheirWeights) {
 TEST(MixMaterials, GiveWeightFrictionAndLook) {
   const AssetLibrary assets = load_assets(load(kMix), {});
   const auto type = [&](const char* name) -> const PieceType& {
-    return assets.types[std::size_t(assets.find(name))];
+    return assets.types[std::size_t(assets.find(name).index)];
   };
   EXPECT_EQ(type("chunk_4 of brick").density, 1900);
   EXPECT_EQ(type("chunk_4 of brick").friction, 0.65);
@@ -73,7 +73,7 @@ TEST(MixMaterials, GiveWeightFrictionAndLook) {
   const auto looks = [&](const char* name) {
     std::string all;
     for (const std::string& look :
-         assets.meshes[std::size_t(assets.find(name))]->levels.front().surface_names)
+         assets.meshes[std::size_t(assets.find(name).index)]->levels.front().surface_names)
       all += look + " ";
     return all;
   };

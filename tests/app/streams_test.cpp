@@ -13,6 +13,7 @@
 #include "app/scene/build_scene.h"
 #include "app/sensors/camera_renderers.h"
 #include "app/session/session.h"
+#include "render/devices/software/software_device.h"
 #include "scripting/mission.h"
 #include "tests/app/program.h"
 
@@ -172,11 +173,11 @@ TEST_F(StreamsInMemory, EndWithALostRobot) {
 
 // One renderer for each quality, which draws as if there were no other.
 TEST_F(StreamsInMemory, EachCameraHasItsOwnQuality) {
-  GlContext gl;
+  SoftwareDevice device;
   const std::vector<MountedCamera>& cameras = mission_.scenario.cameras;
   Scene scene = build_scene(mission_.scenario, mission_.assets, pile_);
   scene.air.fog_density = 0.1;  // drafts scatter light once
-  CameraRenderers renderers(scene, cameras, {}, gl, {});
+  CameraRenderers renderers(scene, cameras, {}, device, {});
   Renderer &fast = renderers.of(camera("fast")), &draft = renderers.of(camera("draft"));
   EXPECT_EQ(&fast, &renderers.of(camera("again")));
   const auto draw = [&](Renderer& renderer) {
@@ -186,9 +187,9 @@ TEST_F(StreamsInMemory, EachCameraHasItsOwnQuality) {
   const auto as_fast = draw(fast), as_draft = draw(draft);
   EXPECT_NE(as_fast, as_draft);
   ColourSpec colour;
-  EXPECT_EQ(as_fast, draw(*prepare_renderer(scene, colour, gl, {})));
+  EXPECT_EQ(as_fast, draw(*prepare_renderer(scene, colour, device, {})));
   colour.quality = RenderQuality::draft;
-  EXPECT_EQ(as_draft, draw(*prepare_renderer(scene, colour, gl, {})));
+  EXPECT_EQ(as_draft, draw(*prepare_renderer(scene, colour, device, {})));
 }
 
 TEST(StreamsInput, SomebodyMustWatchThePileSettle) {

@@ -16,7 +16,7 @@
 #include "io/image/image_file.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/queries/queries.h"
-#include "render/gl/gl_context.h"
+#include "render/devices/software/software_device.h"
 #include "render/renderer.h"
 #include "tests/app/program.h"
 #include "tests/app/tiny_run.h"
@@ -54,8 +54,8 @@ const Settled& settled_here() {
     RunRequest request;
     request.mission = folder / "m.lua", request.options.quiet = true, request.options.threads = 1;
     RunContext context(request.options);
-    Settled settled{resolve_mission(request, RunKind::settle, context), {}};
-    settled.pile = settle_in_memory(settled.mission, context, [] { return true; }).state;
+    Settled settled{resolve_mission(request, RunKind::settle, device), {}};
+    settled.pile = settle_in_memory(settled.mission, device, [] { return true; }).state;
     return settled;
   }();
   return once;
@@ -74,10 +74,10 @@ Eye towards_the_street() {
 }
 
 LinearFrame render(const Scene& scene, const Eye& eye, bool bake = false) {
-  GlContext context({-1, 1});
+  SoftwareDevice device;
   RenderOptions options = cached_options();
   options.bake = bake, options.bake_rays = 16;
-  Renderer renderer(context, scene, options);
+  Renderer renderer(device, scene, options);
   return renderer.render_linear(eye.pose, eye.k);
 }
 
@@ -242,10 +242,10 @@ TEST(SurroundingsRun, ThreadsChangeNoBitOfAFrame) {
   Eye eye = towards_the_street();
   eye.k.width = 96, eye.k.height = 72, eye.k.fx = eye.k.fy = 48, eye.k.cx = 47.5, eye.k.cy = 35.5;
   const auto draw = [&](int threads) {
-    GlContext context({-1, 1});
+    SoftwareDevice device;
     RenderOptions options;
     options.threads = threads, options.bake_rays = 8;
-    return Renderer(context, scene, options).render_linear(eye.pose, eye.k);
+    return Renderer(device, scene, options).render_linear(eye.pose, eye.k);
   };
   const LinearFrame one = draw(1), two = draw(2);
   EXPECT_TRUE(one.rgb == two.rgb);
@@ -335,10 +335,10 @@ TEST(SurroundingsRun, TheReferenceTracesThem) {
   Eye eye = towards_the_street();
   eye.k.width = 64, eye.k.height = 48, eye.k.fx = eye.k.fy = 32, eye.k.cx = 31.5, eye.k.cy = 23.5;
   const LinearFrame fast = render(scene, eye, true);
-  GlContext context({-1, 1});
+  SoftwareDevice device;
   RenderOptions options;
   options.threads = 1, options.colour.quality = RenderQuality::reference, options.colour.samples = 16;
-  const LinearFrame traced = Renderer(context, scene, options).render_linear(eye.pose, eye.k);
+  const LinearFrame traced = Renderer(device, scene, options).render_linear(eye.pose, eye.k);
   EXPECT_EQ(fast.instance, traced.instance);
   EXPECT_EQ(0, std::memcmp(fast.depth.data(), traced.depth.data(), fast.depth.size() * sizeof(float)));
   EXPECT_NEAR(mean_light(fast) / mean_light(traced), 1, 0.1);

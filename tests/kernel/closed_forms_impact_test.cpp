@@ -161,6 +161,41 @@ TEST(ClosedFormImpact, TwelveHundredKilogramsPushAheadWhatStandsOnTheGround) {
   }
 }
 
+// Face against face at 30 m/s, off the middle by `offset`, wherever in a step of 0.5 m the two meet.
+World make_passing(double size, double offset, double phase) {
+  World world({box_type("moving", 0.4, 0.4, 0.4), box_type("resting", size, size, size)}, weightless_options());
+  NewPiece moving = at(0, {0, 0, 5});
+  moving.linear_velocity = {30, 0, 0};
+  world.add({moving, at(1, {1.2 + 0.5 * phase, offset, 5.03})});
+  return world;
+}
+
+TEST(ClosedFormImpact, OffTheMiddleAtThirtyMetresPerSecondKeepsAngularMomentum) {
+  for (const double size : {0.2, 0.4, 0.8}) {
+    for (const double offset : {0.1, 0.15, 0.25}) {
+      for (const double phase : {0.0, 0.2, 0.4, 0.6, 0.8}) {
+        World world = make_passing(size, offset, phase);
+        const double reduced = world.mass(0) * world.mass(1) / (world.mass(0) + world.mass(1));
+        const Vec3 before = world.diagnostics().angular_momentum();
+        run(world, 0.2);
+        EXPECT_GT(norm(world.piece(1).angular_velocity), 1);
+        EXPECT_LT(norm(world.diagnostics().angular_momentum() - before), 0.01 * reduced * 30 * std::max(offset, 0.2))
+            << size << " m, off by " << offset << ", phase " << phase;
+      }
+    }
+  }
+}
+
+// 5 cm beside each other: they pass, and nothing changes.
+TEST(ClosedFormImpact, WhatPassesBesideAtThirtyMetresPerSecondTouchesNothing) {
+  for (const double phase : {0.0, 0.2, 0.4, 0.6, 0.8}) {
+    World world = make_passing(0.2, 0.35, phase);
+    run(world, 0.2);
+    EXPECT_EQ(norm(world.piece(1).linear_velocity), 0) << phase;
+    EXPECT_NEAR(world.piece(0).linear_velocity.x, 30, 1e-6) << phase;
+  }
+}
+
 // A heavy box sleeps on ground without friction; light ones hit it one after the other, each at the
 // height of its middle. All that they bring along the ground stays.
 struct Hits {

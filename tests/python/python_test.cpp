@@ -39,6 +39,9 @@ TEST(Python, SensorsAndRobotsAnswer) { expect_tests("test_sensors.py"); }
 TEST(Python, SessionsGiveWhatARunRecords) { expect_tests("test_session.py"); }
 TEST(Python, DatasetsAreRead) { expect_tests("test_dataset.py"); }
 TEST(Python, ArraysAreWhole) { expect_tests("test_arrays.py"); }
+TEST(Python, MissionsSayWhatLuaSays) { expect_tests("test_missions.py"); }
+TEST(Python, BatchesAreThoseOfTheProgram) { expect_tests("test_batches.py"); }
+TEST(Python, StubsAndMetadataFitThePackage) { expect_tests("test_stubs.py"); }
 
 // With the oldest and the newest numpy that pip has for Debian's Python: what the module gives does not depend on it.
 TEST(NightlyPython, ArraysAreWholeWithNumpyOneAndTwo) {
@@ -104,18 +107,6 @@ TEST(NightlyPython, MemoryStaysOverAHundredThousandSteps) {
   const Ran ran = run("/usr/bin/env RUBBLE_MEMORY_STEPS=100000 /usr/bin/python3 tests/python/test_envs.py -v Memory");
   EXPECT_EQ(ran.status, 0) << ran.output;
   EXPECT_NE(ran.output.find("\nOK"), std::string::npos) << ran.output;
-}
-
-// Unpacked anywhere it needs nothing of the build; pip, where it is there, takes it, too.
-TEST(PythonWheel, RunsWhereItIsUnpacked) {
-  const std::string folder = std::filesystem::temp_directory_path() / ("rubble_wheel_" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
-  const Ran made = run("tools/make_wheel.py 0.0.1 " RUBBLE_PYTHON_PATH "/rubble " RUBBLE_PYTHON_PATH "/../assets " + folder);
-  ASSERT_EQ(made.status, 0) << made.output;
-  const Ran checked = run("/usr/bin/python3 tests/python/check_wheel.py " + folder);
-  EXPECT_EQ(checked.status, 0) << checked.output;
-  EXPECT_NE(checked.output.find("pieces"), std::string::npos) << checked.output;
-  std::filesystem::remove_all(folder);
 }
 
 TEST(PythonTutorials, Run) {

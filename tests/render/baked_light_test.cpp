@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "render/devices/software/software_device.h"
 #include "render/geometry/geometry.h"
 #include "render/geometry/prepared_mesh.h"
 #include "render/lighting/bake.h"
@@ -56,13 +57,13 @@ Scene bore() {
 
 constexpr int kSide = 96;
 
-std::vector<double> draw(GlContext& context, RenderQuality quality) {
+std::vector<double> draw(Device& device, RenderQuality quality) {
   RenderOptions options;
   options.threads = 2;
   options.texture_size = 64, options.shadow_size = 512;
   options.colour.quality = quality, options.colour.samples = 48;
   const Pose eye{{}, {-1.4, 0, 0.56}};
-  const LinearFrame frame = Renderer(context, bore(), options).render_linear(eye, pinhole(kSide, kSide, 0.45 * kSide));
+  const LinearFrame frame = Renderer(device, bore(), options).render_linear(eye, pinhole(kSide, kSide, 0.45 * kSide));
   std::vector<double> out;
   for (std::size_t i = 0; i < frame.rgb.size(); i += 3)
     out.push_back(0.2126 * double(frame.rgb[i]) + 0.7152 * double(frame.rgb[i + 1]) + 0.0722 * double(frame.rgb[i + 2]));
@@ -85,9 +86,9 @@ std::vector<double> ring(const std::vector<double>& image, double inner, double 
 
 // In each ring of the bore: as bright as by paths, and as even.
 TEST(BakedLight, IsThatOfPathsAlongTheRingsOfABore) {
-  GlContext context;
-  const std::vector<double> fast = draw(context, RenderQuality::fast);
-  const std::vector<double> paths = draw(context, RenderQuality::reference);
+  SoftwareDevice device;
+  const std::vector<double> fast = draw(device, RenderQuality::fast);
+  const std::vector<double> paths = draw(device, RenderQuality::reference);
   for (const double inner : {14.0, 20.0, 28.0, 38.0}) {
     const std::vector<double> found = ring(fast, inner, inner + 6), expected = ring(paths, inner, inner + 6);
     double off = 0, mean_found = 0, mean = 0;
@@ -101,13 +102,13 @@ TEST(BakedLight, IsThatOfPathsAlongTheRingsOfABore) {
 }
 
 // Light of 4 by 4 regions of a view aside, where no light comes from the lamp itself.
-std::vector<double> beside_the_beam(GlContext& context, RenderQuality quality) {
+std::vector<double> beside_the_beam(Device& device, RenderQuality quality) {
   RenderOptions options;
   options.threads = 2, options.texture_size = 64;
   options.colour.quality = quality, options.colour.samples = 64;
   ViewRays view{0, pinhole(kSide, kSide, 0.5 * kSide), look_at({-1, 0, 0}, {-1, 3, 0})};
   view.world_from_rig = look_at({-1, 0, 0}, {2, 0, 0});
-  const LinearFrame frame = Renderer(context, slab_room({4, 3, 2.4}), options).render_linear(view);
+  const LinearFrame frame = Renderer(device, slab_room({4, 3, 2.4}), options).render_linear(view);
   std::vector<double> out(16);
   for (std::size_t i = 0; i < frame.depth.size(); ++i)
     out[i / kSide / (kSide / 4) * 4 + i % kSide / (kSide / 4)] += double(frame.rgb[i * 3 + 1]) / (kSide * kSide / 16.0);
@@ -115,9 +116,9 @@ std::vector<double> beside_the_beam(GlContext& context, RenderQuality quality) {
 }
 
 TEST(LampBounce, LightsARoomAsPathsDo) {
-  GlContext context;
-  const std::vector<double> fast = beside_the_beam(context, RenderQuality::fast);
-  const std::vector<double> paths = beside_the_beam(context, RenderQuality::reference);
+  SoftwareDevice device;
+  const std::vector<double> fast = beside_the_beam(device, RenderQuality::fast);
+  const std::vector<double> paths = beside_the_beam(device, RenderQuality::reference);
   double off = 0, sum = 0, expected = 0;
   for (std::size_t i = 0; i < fast.size(); ++i)
     off += std::fabs(fast[i] - paths[i]) / paths[i] / 16, sum += fast[i], expected += paths[i];
@@ -127,11 +128,11 @@ TEST(LampBounce, LightsARoomAsPathsDo) {
 
 // Light is added to what a picture shows: pictures before it, and the number of threads, change nothing.
 TEST(LampBounce, DependsOnThePictureAlone) {
-  GlContext context;
+  SoftwareDevice device;
   const auto draw = [&](int threads, bool look_around) {
     RenderOptions options;
     options.threads = threads, options.texture_size = 64, options.bake_rays = 16;
-    Renderer renderer(context, slab_room({4, 3, 2.4}), options);
+    Renderer renderer(device, slab_room({4, 3, 2.4}), options);
     const Pose lamp = look_at({-1, 0, 0}, {2, 0, 0});
     ViewRays aside{0, pinhole(64, 64, 32), look_at({-1, 0, 0}, {-1, 3, 0})}, back = aside;
     aside.world_from_rig = back.world_from_rig = lamp;
@@ -148,12 +149,12 @@ TEST(LampBounce, DependsOnThePictureAlone) {
 
 // The light that was added goes when the lamp does, bit for bit.
 TEST(LampBounce, LeavesNothingBehind) {
-  GlContext context;
+  SoftwareDevice device;
   RenderOptions options;
   options.threads = 2, options.texture_size = 64, options.bake_rays = 16;
   Scene scene = slab_room({4, 3, 2.4});
   scene.light.intensity = 1, scene.light.position = {1, 0, 0.5};
-  Renderer renderer(context, scene, options);
+  Renderer renderer(device, scene, options);
   const Pose eye = look_at({-1, 0, 0}, {2, 0, 0});
   const auto draw = [&] { return renderer.render_linear(eye, pinhole(48, 48, 30)).rgb; };
   LampSpec off = scene.lamp;

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "kernel/base/hash.h"
+#include "render/devices/software/software_device.h"
 #include "render/renderer.h"
 #include "tests/render/test_scene.h"
 
@@ -20,8 +21,8 @@ std::string draw(const Scene& scene, const std::string& folder) {
   options.shadow_size = 256;
   options.texture_size = 64;
   options.cache_folder = folder;
-  GlContext context;
-  Renderer renderer(context, scene, options);
+  SoftwareDevice device;
+  Renderer renderer(device, scene, options);
   const Frame frame =
       renderer.render(look_at({4, 1, 1.2}, {0, 0, 0.7}), pinhole(160, 120, 100), 0, 0);
   StateHash hash;

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "kernel/base/portable_math.h"
+#include "render/devices/software/software_device.h"
 #include "render/sensors/exposure_control.h"
 #include "render/sensors/image_sensor.h"
 #include "render/sensors/noise_field.h"
@@ -18,11 +19,11 @@ namespace camera_test {
 
 TEST(Camera, WithEveryStageOffIsTheRenderer) {
   const Scene scene = make_heap(60, 2);
-  GlContext context;
+  SoftwareDevice device;
   const Flight flight = fly(3, [](double t) { return look_at({5 - t, 1, 1.4}, {0, 0, 0.5}); });
   CameraSpec spec;
   spec.intrinsics = pinhole(64, 48, 40);
-  Renderer one(context, scene, plain()), two(context, scene, plain());
+  Renderer one(device, scene, plain()), two(device, scene, plain());
   Camera camera(one, spec, flight);
   for (int i = 0; i < camera.frames(); ++i) {
     const Frame a = camera.take(i);
@@ -43,7 +44,7 @@ TEST(Camera, AnIdealExposureMetersTheFrameItself) {
   scene.meshes.push_back(share(make_box({4, 4, 0.2}, "concrete_cast")));
   const std::uint32_t slab = std::uint32_t(scene.meshes.size() - 1);
   scene.instances.push_back({slab, 1, {{}, {30, 0, 1.5}}, 900});
-  GlContext context;
+  SoftwareDevice device;
   const auto pose = [](double t) {
     return std::lround(t * 10) % 2 ? look_at({29.5, 0, 0.6}, {30.5, 0.2, 0.3})
                                    : look_at({5, 1, 1.4}, {0, 0, 0.5});
@@ -53,11 +54,11 @@ TEST(Camera, AnIdealExposureMetersTheFrameItself) {
   spec.intrinsics = pinhole(64, 48, 40);
   RenderOptions options = plain();
   options.bake = true, options.bake_rays = 16;
-  Renderer one(context, scene, options);
+  Renderer one(device, scene, options);
   Camera camera(one, spec, flight);
   for (int i = 0; i < camera.frames(); ++i) {
     const Frame frame = camera.take(i);
-    Renderer fresh(context, scene, options);
+    Renderer fresh(device, scene, options);
     EXPECT_EQ(frame.rgb, Camera(fresh, spec, flight).take(i).rgb) << i;
     int white = 0;
     for (const std::uint8_t c : frame.rgb) white += c >= 250;
@@ -68,12 +69,12 @@ TEST(Camera, AnIdealExposureMetersTheFrameItself) {
 // The right camera of a pair stands where the left one does: the same picture, if it is exposed alike.
 TEST(Camera, BothEyesShareOneExposure) {
   const Scene scene = make_heap(60, 2);
-  GlContext context;
+  SoftwareDevice device;
   const Flight flight = fly(4, [](double t) { return look_at({5 - 12 * t, 1 + t, 1.4}, {0, 9 * t, 0.5}); });
   CameraSpec spec;
   spec.intrinsics = pinhole(64, 48, 40);
   spec.baseline = 1e-9;  // nothing but the exposure can differ
-  Renderer renderer(context, scene, plain());
+  Renderer renderer(device, scene, plain());
   Camera camera(renderer, spec, flight);
   for (int i = 0; i < camera.frames(); ++i) {
     const Frame frame = camera.take(i);
@@ -89,8 +90,8 @@ TEST(Camera, BothEyesShareOneExposure) {
 // A camera that is moved by a nanometre gives the same picture; the next image of it has other noise.
 TEST(Camera, NoiseIsOfTheImageAndThePixelNotOfThePose) {
   const Scene scene = make_heap(60, 2);
-  GlContext context;
-  Renderer renderer(context, scene, plain());
+  SoftwareDevice device;
+  Renderer renderer(device, scene, plain());
   CameraSpec spec;
   spec.intrinsics = pinhole(64, 48, 40);
   const auto take = [&](double shift, int index) {
@@ -126,8 +127,8 @@ double mean_of(const Frame& frame) {
 }
 
 TEST(Exposure, IsLinearInTimeAndSpeedAndAreaOfTheAperture) {
-  GlContext context;
-  Renderer renderer(context, lit_wall(), plain());
+  SoftwareDevice device;
+  Renderer renderer(device, lit_wall(), plain());
   const auto level = [&](double time, double iso, double f_number) {
     CameraSpec spec = fixed_camera(32, 32, 200);
     spec.intrinsics.cx += 200;  // only the wall
@@ -291,8 +292,8 @@ TEST(AutoExposure, RaisesTimeFirstThenSpeedAndEndsThere) {
 TEST(AutoExposure, LeavesFramesOverexposedAfterASuddenChange) {
   Scene scene = lit_wall();
   scene.light.rpy_deg = {0, 30, 180};  // the wall's face lies in the shade
-  GlContext context;
-  Renderer renderer(context, scene, plain());
+  SoftwareDevice device;
+  Renderer renderer(device, scene, plain());
   CameraSpec spec = fixed_camera(32, 32, 100);
   spec.exposure = {};
   spec.exposure.mode = ExposureMode::automatic;

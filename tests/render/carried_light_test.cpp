@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "kernel/base/portable_math.h"
+#include "render/devices/software/software_device.h"
 #include "render/renderer.h"
 #include "tests/render/test_scene.h"
 
@@ -67,10 +68,10 @@ LinearFrame draw(Renderer& renderer, double t) {
 }
 
 TEST(CarriedLights, ShineAsSpotsThatStandThere) {
-  GlContext context;
-  Renderer carried(context, with_carried(), plain());
+  SoftwareDevice device;
+  Renderer carried(device, with_carried(), plain());
   for (const double t : {0.3, 1.2, 0.7}) {
-    Renderer standing(context, with_spot_at(t), plain());
+    Renderer standing(device, with_spot_at(t), plain());
     const LinearFrame a = draw(carried, t), b = draw(standing, t);
     double sum = 0, off = 0;
     for (std::size_t i = 0; i < a.instance.size(); ++i) {
@@ -84,18 +85,18 @@ TEST(CarriedLights, ShineAsSpotsThatStandThere) {
 }
 
 TEST(CarriedLights, DoNotShineWhenTheirBodyIsNotThere) {
-  GlContext context;
-  Renderer carried(context, with_carried(), plain()), none(context, night_scene(), plain());
+  SoftwareDevice device;
+  Renderer carried(device, with_carried(), plain()), none(device, night_scene(), plain());
   EXPECT_NE(draw(carried, 1).rgb, draw(none, 1).rgb);
   EXPECT_EQ(draw(carried, 4).rgb, draw(none, 4).rgb);
 }
 
 TEST(CarriedLights, ReferencePicturesFollowThem) {
-  GlContext context;
+  SoftwareDevice device;
   RenderOptions options = plain();
   options.colour.quality = RenderQuality::reference;
   options.colour.samples = 4;
-  Renderer carried(context, with_carried(), options);
+  Renderer carried(device, with_carried(), options);
   double column[2] = {};
   for (int k = 0; k < 2; ++k) {
     const LinearFrame frame = draw(carried, k == 0 ? 0.3 : 1.2);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "render/devices/software/software_device.h"
 #include "render/renderer.h"
 #include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
@@ -24,8 +25,8 @@ RenderOptions options_with(bool culling) {
 // without, along a path with large steps so that the memory of the frame before is often wrong.
 TEST(OcclusionCulling, NeverDropsWhatShows) {
   const Scene heap = make_heap(500, 3);
-  GlContext context;
-  Renderer with(context, heap, options_with(true)), without(context, heap, options_with(false));
+  SoftwareDevice device;
+  Renderer with(device, heap, options_with(true)), without(device, heap, options_with(false));
   const Intrinsics k = pinhole(320, 240, 200);
   const Vec3 eyes[] = {{7, 2, 1.5}, {4, 0.3, 0.7}, {1, 0, 0.6}, {-1, 0.2, 0.5},
                        {-6, -4, 3}, {0.2, 0.1, 5}, {1, 0, 0.6}};
@@ -49,8 +50,8 @@ TEST(OcclusionCulling, NeverDropsWhatShows) {
 
 TEST(OcclusionCulling, LeavesMostOfAHeapOut) {
   const Scene heap = make_heap(500, 3);
-  GlContext context;
-  Renderer with(context, heap, options_with(true)), without(context, heap, options_with(false));
+  SoftwareDevice device;
+  Renderer with(device, heap, options_with(true)), without(device, heap, options_with(false));
   const Pose pose = look_at({1, 0, 0.6}, {-1.5, 0, 0.5});
   const Intrinsics k = pinhole(320, 240, 200);
   const auto triangles = [&](Renderer& renderer, std::int64_t stamp_ns) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/devices/software/software_device.h"
 #include "tests/render/cached_options.h"
 #include "tests/render/depth_scenes.h"
 
@@ -103,10 +104,10 @@ TEST(StructuredLight, HasTheShadowOfItsProjector) {
   scene.meshes.push_back(share(make_box({0.2, 0.5, 0.5})));
   scene.instances.push_back({0, 1, {{}, {3.5, 0, 0}}, 1});   // wall at 3 m
   scene.instances.push_back({1, 1, {{}, {1.1, 0, 0}}, 2});   // box at 1 m
-  GlContext context;
+  SoftwareDevice device;
   RenderOptions options = cached_options();
   options.bake = false, options.shadow_size = 64, options.texture_size = 16;
-  Renderer renderer(context, scene, options);
+  Renderer renderer(device, scene, options);
   CameraSpec spec = kinect();
   spec.intrinsics = pinhole(320, 40, 293);
   Flight flight;
@@ -203,10 +204,10 @@ double noise_on(const char* look, double stated, double albedo) {
   scene.ground = false;
   scene.meshes.push_back(share(make_box({1, 30, 30}, look)));
   scene.instances.push_back({0, 1, {{}, {3.5, 0, 0}}, 1});
-  GlContext context;
+  SoftwareDevice device;
   RenderOptions options = cached_options();
   options.bake = false, options.shadow_size = 64, options.texture_size = 16;
-  Renderer renderer(context, scene, options);
+  Renderer renderer(device, scene, options);
   CameraSpec spec = time_of_flight();
   spec.depth_sensor.reflectance = stated;
   spec.intrinsics = pinhole(60, 60, 4000);

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "kernel/base/portable_math.h"
+#include "render/devices/make_device.h"
 #include "render/renderer.h"
 #include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
@@ -12,10 +13,9 @@
 namespace rubble::testing {
 namespace depth_test {
 
-// Both ways of drawing triangles must be exact, whatever this machine would choose.
-RenderOptions plain(DrawnBy raster) {
+// Both devices must be exact.
+RenderOptions plain() {
   RenderOptions options = cached_options();
-  options.raster = raster;
   options.bake = false;
   options.shadow_size = 64;
   options.texture_size = 16;
@@ -42,16 +42,16 @@ Intrinsics odd_pinhole() {
 // 0.1 mm to 10 m, in all cases; beyond, a hundred-thousandth.
 double allowed(double depth) { return depth <= 10 ? 1e-4 : depth * 1e-5; }
 
-using Case = std::tuple<DrawnBy, double>;
-const auto kBoth = ::testing::Values(DrawnBy::device, DrawnBy::processor);
+using Case = std::tuple<DeviceKind, double>;
+const auto kBoth = ::testing::Values(DeviceKind::gl, DeviceKind::software);
 
 class FacingPlane : public ::testing::TestWithParam<Case> {};
 
 TEST_P(FacingPlane, HasTheSameDepthEverywhere) {
-  const auto [raster, d] = GetParam();
-  GlContext context;
+  const auto [kind, d] = GetParam();
+  const std::unique_ptr<Device> device = make_device({kind});
   // The camera looks along +X from the origin; the box's near face is the plane x = d.
-  Renderer renderer(context, scene_of(make_box({1, 100, 100}), {{}, {d + 0.5, 0, 0}}), plain(raster));
+  Renderer renderer(*device, scene_of(make_box({1, 100, 100}), {{}, {d + 0.5, 0, 0}}), plain());
   const Frame frame = renderer.render({}, odd_pinhole(), 0, 0);
   for (const float z : frame.depth) ASSERT_NEAR(double(z), d, allowed(d));
 }
@@ -62,13 +62,13 @@ INSTANTIATE_TEST_SUITE_P(Distances, FacingPlane,
 class ObliquePlane : public ::testing::TestWithParam<Case> {};
 
 TEST_P(ObliquePlane, FollowsTheRayPlaneFormula) {
-  const auto [raster, d] = GetParam();
+  const auto [kind, d] = GetParam();
   const Pose turned{portable::quat_from_rpy(0, 0, portable::kPi / 3), {d, 0, 0}};
-  GlContext context;
+  const std::unique_ptr<Device> device = make_device({kind});
   // Turned by 60 degrees about the vertical, the near face passes through (d, 0, 0).
-  Renderer renderer(context,
+  Renderer renderer(*device,
                     scene_of(make_box({1, 80, 80}), {turned.rotation, turned * Vec3(0.5, 0, 0)}),
-                    plain(raster));
+                    plain());
   const Intrinsics k = odd_pinhole();
   const Frame frame = renderer.render({}, k, 0, 0);
   const Vec3 normal = turned.rotation.rotate({1, 0, 0});
@@ -94,11 +94,11 @@ class SphereDepth : public ::testing::TestWithParam<Case> {};
 
 TEST_P(SphereDepth, FollowsTheRaySphereFormula) {
   // 400 rings: the facets lie at most r (1 - cos(pi / 800)) = 8e-6 r inside the sphere.
-  const auto [raster, d] = GetParam();
+  const auto [kind, d] = GetParam();
   const double radius = 0.3 * d;
-  GlContext context;
-  Renderer renderer(context, scene_of(make_sphere(400), {{}, {d, 0.05 * d, 0}}, float(radius)),
-                    plain(raster));
+  const std::unique_ptr<Device> device = make_device({kind});
+  Renderer renderer(*device, scene_of(make_sphere(400), {{}, {d, 0.05 * d, 0}}, float(radius)),
+                    plain());
   const Intrinsics k = odd_pinhole();
   const Frame frame = renderer.render({}, k, 0, 0);
   const Vec3 centre(d, 0.05 * d, 0);
@@ -126,21 +126,20 @@ TEST_P(SphereDepth, FollowsTheRaySphereFormula) {
 INSTANTIATE_TEST_SUITE_P(Distances, SphereDepth,
                          ::testing::Combine(kBoth, ::testing::Values(0.15, 1.0, 10.0, 30.0)));
 
-class Raster : public ::testing::TestWithParam<DrawnBy> {};
+class Raster : public ::testing::TestWithParam<DeviceKind> {};
 INSTANTIATE_TEST_SUITE_P(Both, Raster, kBoth);
 
 // The convention of pixel centres, on both axes: an edge at column 40 and row 20 exactly between
 // centres decides which pixels are covered.
 TEST_P(Raster, HasPixelCentresAtWholeNumbers) {
-  const DrawnBy raster = GetParam();
   Intrinsics k;
   k.width = 96, k.height = 64;
   k.fx = 80, k.fy = 80, k.cx = 30, k.cy = 25;
   // At x = 2 m a pixel is 2/80 m wide. The box covers columns from 40.5 on and rows from 20.5 on.
   const double left = -(40.5 - k.cx) / k.fx * 2, top = -(20.5 - k.cy) / k.fy * 2;
-  GlContext context;
+  const std::unique_ptr<Device> device = make_device({GetParam()});
   Renderer renderer(
-      context, scene_of(make_box({1e-3, 50, 50}), {{}, {2 + 5e-4, left - 25, top - 25}}), plain(raster));
+      *device, scene_of(make_box({1e-3, 50, 50}), {{}, {2 + 5e-4, left - 25, top - 25}}), plain());
   const Frame frame = renderer.render({}, k, 0, 0);
   for (int v = 0; v < k.height; ++v)
     for (int u = 0; u < k.width; ++u)
@@ -149,11 +148,10 @@ TEST_P(Raster, HasPixelCentresAtWholeNumbers) {
 }
 
 TEST_P(Raster, IsMissingWhereThereIsOnlySky) {
-  const DrawnBy raster = GetParam();
   Scene scene;
   scene.ground = false;
-  GlContext context;
-  Renderer renderer(context, scene, plain(raster));
+  const std::unique_ptr<Device> device = make_device({GetParam()});
+  Renderer renderer(*device, scene, plain());
   const Frame frame = renderer.render({}, odd_pinhole(), 3, 42);
   EXPECT_EQ(frame.index, 3);
   EXPECT_EQ(frame.stamp_ns, 42);
@@ -162,9 +160,8 @@ TEST_P(Raster, IsMissingWhereThereIsOnlySky) {
 }
 
 TEST_P(Raster, OfTheGroundWithoutPieces) {
-  const DrawnBy raster = GetParam();
-  GlContext context;
-  Renderer renderer(context, Scene{}, plain(raster));
+  const std::unique_ptr<Device> device = make_device({GetParam()});
+  Renderer renderer(*device, Scene{}, plain());
   const Intrinsics k = pinhole(64, 64, 60);
   const Frame frame = renderer.render({{}, {0, 0, 1.5}}, k, 0, 0);
   for (int v = 40; v < 64; ++v) {
@@ -176,14 +173,13 @@ TEST_P(Raster, OfTheGroundWithoutPieces) {
 
 // A rotated camera far from the origin sees what a camera at the origin does.
 TEST_P(Raster, DoesNotDependOnWhereTheCameraStands) {
-  const DrawnBy raster = GetParam();
   const Pose moved{portable::quat_from_rpy(0.3, -0.4, 2.0), {41.5, -23.25, 7.75}};
   const Pose box{portable::quat_from_rpy(0.1, 0.2, 0.5), {3, 0.2, -0.1}};
-  GlContext context;
+  const std::unique_ptr<Device> device = make_device({GetParam()});
   const Intrinsics k = odd_pinhole();
-  Renderer here(context, scene_of(make_box({0.7, 0.9, 0.8}), box), plain(raster));
+  Renderer here(*device, scene_of(make_box({0.7, 0.9, 0.8}), box), plain());
   const Frame a = here.render({}, k, 0, 0);
-  Renderer there(context, scene_of(make_box({0.7, 0.9, 0.8}), moved * box), plain(raster));
+  Renderer there(*device, scene_of(make_box({0.7, 0.9, 0.8}), moved * box), plain());
   const Frame b = there.render(moved, k, 0, 0);
   int seen = 0, differ = 0;
   for (std::size_t i = 0; i < a.depth.size(); ++i) {
@@ -209,8 +205,8 @@ TEST_P(Raster, IsExactOnATriangleFromVeryNearToFar) {
   mesh.positions.push_back({1e4f, 0, -2999});
   mesh.triangles.push_back({3, 4, 5});
   mesh.surfaces.push_back(0);
-  GlContext context;
-  Renderer renderer(context, scene_of(mesh, {}), plain(GetParam()));
+  const std::unique_ptr<Device> device = make_device({GetParam()});
+  Renderer renderer(*device, scene_of(mesh, {}), plain());
   Intrinsics k = pinhole(200, 800, 90);
   k.fy = 3000, k.cy = 10;  // the far part is a matter of few degrees
   const Frame frame = renderer.render({}, k, 0, 0);
@@ -231,18 +227,15 @@ TEST_P(Raster, IsExactOnATriangleFromVeryNearToFar) {
   EXPECT_GT(far, 3);
 }
 
-// The two ways draw the same picture, but for pixels that an edge crosses within a grid step.
-TEST(RasterChoices, AgreeOnAHeap) {
+// The two devices draw the same picture, but for pixels that an edge crosses within a grid step.
+TEST(Devices, AgreeOnAHeap) {
   Scene heap = make_heap(300, 4);
-  GlContext context;
-  RenderOptions options = plain(DrawnBy::device);
-  Renderer device(context, heap, options);
-  options.raster = DrawnBy::processor;
-  Renderer processor(context, heap, options);
+  const std::unique_ptr<Device> gl = make_device({DeviceKind::gl}), software = make_device({DeviceKind::software});
+  Renderer by_gl(*gl, heap, plain()), by_software(*software, heap, plain());
   for (const Vec3& eye : {Vec3(6, 2, 2), Vec3(1, 0.2, 0.6), Vec3(0.2, 0.1, 0.3)}) {
     const Pose pose = look_at(eye, {-1.5, 0.1, 0.5});
-    const LinearFrame a = device.render_linear(pose, pinhole(320, 240, 200));
-    const LinearFrame b = processor.render_linear(pose, pinhole(320, 240, 200));
+    const LinearFrame a = by_gl.render_linear(pose, pinhole(320, 240, 200));
+    const LinearFrame b = by_software.render_linear(pose, pinhole(320, 240, 200));
     int differ = 0;
     for (std::size_t i = 0; i < a.depth.size(); ++i)
       differ += a.instance[i] != b.instance[i] ||

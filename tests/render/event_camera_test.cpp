@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/devices/software/software_device.h"
 #include "render/sensors/camera.h"
 #include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
@@ -114,10 +115,10 @@ TEST(EventCamera, ReportsAMovingEdge) {
   scene.light.rpy_deg = {0, 30, 180};
   scene.meshes.push_back(share(make_box({1, 20, 40}, "plaster")));
   scene.instances.push_back({0, 1, {{}, {4.5, 10, 0}}, 5});
-  GlContext context;
+  SoftwareDevice device;
   RenderOptions options = cached_options();
   options.bake = false, options.shadow_size = 64, options.texture_size = 16;
-  Renderer renderer(context, scene, options);
+  Renderer renderer(device, scene, options);
   CameraSpec spec;
   spec.intrinsics = pinhole(64, 16, 100);
   spec.event_camera = quiet();
@@ -177,10 +178,10 @@ TEST(EventCamera, ReportsTheEdgeOfWhatMoves) {
   scene.motion.poses_at = [](std::int64_t ns) {
     return std::vector<std::optional<Pose>>{Pose{{}, {4.5, 10.1 - 2e-9 * double(ns), 0}}};
   };
-  GlContext context;
+  SoftwareDevice device;
   RenderOptions options = cached_options();
   options.bake = false, options.shadow_size = 64, options.texture_size = 16;
-  Renderer renderer(context, scene, options);
+  Renderer renderer(device, scene, options);
   CameraSpec spec;
   spec.intrinsics = pinhole(64, 16, 100);
   spec.event_camera = quiet();

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "kernel/base/portable_math.h"
+#include "render/devices/software/software_device.h"
 #include "render/media/air_box.h"
 #include "render/renderer.h"
 #include "render/transport/air_transfer.h"
@@ -31,11 +32,11 @@ Scene outside() {
 // Light of 4 by 4 regions of the image.
 std::vector<double> regions(const Scene& scene, const Pose& eye, RenderQuality quality, int samples,
                             int bake_rays = RenderOptions().bake_rays) {
-  GlContext context;
+  SoftwareDevice device;
   RenderOptions options = quality == RenderQuality::fast ? cached_options() : RenderOptions();
   options.threads = 1, options.texture_size = 64, options.bake_rays = bake_rays;
   options.colour.quality = quality, options.colour.samples = samples;
-  const LinearFrame frame = Renderer(context, scene, options).render_linear({0, pinhole(kSide, kSide, 0.6 * kSide), eye});
+  const LinearFrame frame = Renderer(device, scene, options).render_linear({0, pinhole(kSide, kSide, 0.6 * kSide), eye});
   std::vector<double> out(kRegions * kRegions);
   constexpr std::size_t side = kSide, region = kSide / kRegions;
   for (std::size_t i = 0; i < side * side; ++i)
@@ -139,10 +140,10 @@ TEST(FogLight, ThreadsChangeNoBit) {
   Scene scene = slab_room({4, 3, 2.4});
   scene.air.fog_density = 0.3;
   const auto draw = [&](int threads) {
-    GlContext context;
+    SoftwareDevice device;
     RenderOptions options;
     options.threads = threads, options.texture_size = 64, options.bake_rays = 16;
-    return Renderer(context, scene, options).render_linear(look_at({-1.2, 0.3, 0}, {2, 0, 0}), pinhole(32, 32, 20)).rgb;
+    return Renderer(device, scene, options).render_linear(look_at({-1.2, 0.3, 0}, {2, 0, 0}), pinhole(32, 32, 20)).rgb;
   };
   EXPECT_TRUE(draw(1) == draw(3));
 }

@@ -13,6 +13,7 @@
 
 #include "io/image/image_file.h"
 #include "kernel/base/portable_math.h"
+#include "render/devices/software/software_device.h"
 #include "render/renderer.h"
 #include "tests/render/test_scene.h"
 
@@ -72,7 +73,7 @@ struct View {
   std::function<void(Scene&)> change;
 };
 
-RgbImage draw(GlContext& context, const View& view, const std::function<void(Scene&)>& more = {},
+RgbImage draw(Device& device, const View& view, const std::function<void(Scene&)>& more = {},
               int pieces = 220) {
   Scene scene = make_heap(pieces, 7);
   scene.lamp.on = false;
@@ -83,7 +84,7 @@ RgbImage draw(GlContext& context, const View& view, const std::function<void(Sce
   options.texture_size = 256, options.bake_rays = 64;
   const char* cache = std::getenv("RUBBLE_CACHE");
   options.cache_folder = cache ? cache : "";
-  Renderer renderer(context, scene, options);
+  Renderer renderer(device, scene, options);
   const Frame frame = renderer.render(look_at(view.eye, view.target),
                                       pinhole(kSide, kSide, 0.6 * kSide), 0, 1000000000);
   return {kSide, kSide, frame.rgb};
@@ -126,8 +127,8 @@ class ImageGolden : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(ImageGolden, LooksAsStored) {
   const View& view = views()[GetParam()];
-  GlContext context;
-  const RgbImage found = draw(context, view);
+  SoftwareDevice device;
+  const RgbImage found = draw(device, view);
   if (std::getenv("RUBBLE_UPDATE_GOLDENS")) {
     write_png(golden_path(view).string(), found, 9);
     GTEST_SKIP() << "stored anew: " << golden_path(view);
@@ -151,11 +152,11 @@ INSTANTIATE_TEST_SUITE_P(Views, ImageGolden, ::testing::Range(std::size_t{0}, vi
 
 // The limits tell what a person would see: another place of the sun, thin fog, wet surfaces.
 TEST(ImageGoldenControl, FailsForWhatAPersonWouldSee) {
-  GlContext context;
+  SoftwareDevice device;
   const View& noon = views()[0];
-  const RgbImage expected = draw(context, noon, {}, 30);
+  const RgbImage expected = draw(device, noon, {}, 30);
   const auto fails = [&](const std::function<void(Scene&)>& change) {
-    const Difference d = compare(expected, draw(context, noon, change, 30));
+    const Difference d = compare(expected, draw(device, noon, change, 30));
     return d.most > kMostDifference || d.mean > kMostMean;
   };
   EXPECT_FALSE(fails([](Scene&) {}));

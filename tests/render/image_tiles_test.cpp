@@ -1,5 +1,5 @@
 // Which parts of an image are coloured by which shader, and that leaving light out does not show.
-#include "render/colour/image_tiles.h"
+#include "render/devices/gl/image_tiles.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "render/colour/frame_light.h"
+#include "render/devices/software/software_device.h"
 #include "render/lighting/exposure.h"
 #include "render/reference/display.h"
 #include "render/renderer.h"
@@ -74,10 +75,10 @@ int difference_by_lamp(double sun_klx, double intensity_cd) {
   options.shadow_size = 256;
   options.texture_size = 32;
   options.fixed_exposure = 0.02;
-  GlContext context;
+  SoftwareDevice device;
   const auto draw = [&](bool lamp) {
     scene.lamp.on = lamp;
-    return Renderer(context, scene, options)
+    return Renderer(device, scene, options)
         .render(look_at({5, 2, 2.5}, {0, 0, 0.3}), pinhole(160, 120, 100), 0, 0);
   };
   const Frame with = draw(true), without = draw(false);
@@ -103,10 +104,10 @@ int difference_from_all_light(double sun_klx, double intensity_cd, bool bake) {
   options.antialias = false;
   const Pose eye = look_at({5, 2, 2.5}, {0, 0, 0.3});
   const Intrinsics k = pinhole(kWidth, kHeight, 60);
-  GlContext context;
-  const std::vector<float> all = Renderer(context, scene, options).render_linear(eye, k).rgb;
+  SoftwareDevice device;
+  const std::vector<float> all = Renderer(device, scene, options).render_linear(eye, k).rgb;
   options.bake = bake;
-  const std::vector<std::uint8_t> shown = Renderer(context, scene, options).render(eye, k, 0, 0).rgb;
+  const std::vector<std::uint8_t> shown = Renderer(device, scene, options).render(eye, k, 0, 0).rgb;
   const Vec3f gains = white_balance(make_lights(scene));
   const float exposure = find_exposure({0.21, 0}, meter_image(all, kWidth, kHeight, gains));
   const std::vector<std::uint8_t> expected = develop_image(all, kWidth, kHeight, gains, exposure);

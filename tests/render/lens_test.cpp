@@ -8,6 +8,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "kernel/base/portable_math.h"
+#include "render/devices/software/software_device.h"
 #include "render/renderer.h"
 #include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
@@ -135,8 +136,8 @@ TEST(DistortedImage, HasTheDepthOfOpenCvsRays) {
   const Quat turn = portable::quat_from_rpy(0, 0.35, 0.5);
   const Vec3 normal = turn.rotate({-1, 0, 0}), corner = Vec3(3, 0, 0);
   scene.instances.push_back({0, 1, {turn, corner - normal * 0.5}, 1});
-  GlContext context;
-  Renderer renderer(context, scene, plain());
+  SoftwareDevice device;
+  Renderer renderer(device, scene, plain());
   for (const Intrinsics& k : lenses()) {
     const Frame frame = renderer.render(view_through(k, {}), 0);
     std::vector<cv::Point2d> pixels, slopes;
@@ -179,8 +180,8 @@ TEST(DistortedImage, HasObjectsWhereOpenCvProjectsThem) {
       scene.instances.push_back(
           {0, float(kRadius), {{}, centres.back()}, std::uint32_t(scene.instances.size())});
     }
-  GlContext context;
-  Renderer renderer(context, scene, plain());
+  SoftwareDevice device;
+  Renderer renderer(device, scene, plain());
   const StreamSet channels{find_image_stream("instance")};
   const std::vector<Intrinsics> all = lenses();
   for (Intrinsics k : {all[1], all[4], all[6]}) {
@@ -231,10 +232,10 @@ TEST(DistortedImage, HasObjectsWhereOpenCvProjectsThem) {
 // A pinhole, rasterised and cast: the same pieces, depths and colours but for rounding.
 TEST(CastRays, DrawWhatRasterisingDraws) {
   const Scene scene = make_heap(150, 9);
-  GlContext context;
+  SoftwareDevice device;
   RenderOptions options = plain();
   options.fixed_exposure = 1;
-  Renderer renderer(context, scene, options);
+  Renderer renderer(device, scene, options);
   const Intrinsics k = pinhole(160, 120, 100);
   const Pose pose = look_at({4, 1, 1.2}, {0, 0, 0.6});
   const LinearFrame a = renderer.render_linear(pose, k);
@@ -269,8 +270,8 @@ TEST(RollingShutter, SlantsAnEdgeByTheMotionDuringReadout) {
   const auto eye_at = [&](int v) { return 0.3 + 0.4 * (v - k.cy) / k.height; };
   for (int v = 0; v < k.height; ++v)
     view.row_poses.push_back(Pose{{}, {0, eye_at(v), 0}} * camera_from_optical);
-  GlContext context;
-  Renderer renderer(context, scene, plain());
+  SoftwareDevice device;
+  Renderer renderer(device, scene, plain());
   const LinearFrame frame = renderer.render_linear(view);
   for (int v = 0; v < k.height; ++v) {
     const double edge = k.cx + k.fx * eye_at(v) / 4;  // y = 0 seen from there

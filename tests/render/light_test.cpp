@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "kernel/base/portable_math.h"
+#include "render/devices/software/software_device.h"
 #include "render/sky/atmosphere.h"
 #include "render/lighting/lighting.h"
 #include "render/media/medium.h"
@@ -47,8 +48,8 @@ double middle(const LinearFrame& frame, int half = 4) {
 }
 
 double draw_middle(const Scene& scene) {
-  GlContext context;
-  return middle(Renderer(context, scene, plain()).render_linear({}, pinhole(128, 128, 400)));
+  SoftwareDevice device;
+  return middle(Renderer(device, scene, plain()).render_linear({}, pinhole(128, 128, 400)));
 }
 
 double without_light() { return draw_middle(wall()); }
@@ -69,8 +70,8 @@ TEST(Lamp, FallsWithTheSquareOfTheDistance) {
 // A camera that stands back sees the wall as bright as the one beside the lamp; with a lamp of its own,
 // twice as far, a quarter of it.
 TEST(Lamp, StaysOnTheRigThatBearsIt) {
-  GlContext context;
-  Renderer renderer(context, with_lamp(0), plain());
+  SoftwareDevice device;
+  Renderer renderer(device, with_lamp(0), plain());
   ViewRays view{0, pinhole(128, 128, 400), {}};
   const double dark = without_light();
   const double beside = middle(renderer.render_linear(view)) - dark;
@@ -85,11 +86,11 @@ TEST(Lamp, StaysOnTheRigThatBearsIt) {
 TEST(Lamp, HasHalfItsIntensityAtTheHalfPowerAngle) {
   const double dark = without_light();
   // The same spot of the wall under a narrow and a wide lamp, on the axis and 30 degrees off it.
-  GlContext context;
+  SoftwareDevice device;
   const auto lit = [&](double cone_deg, const Intrinsics& k) {
     Scene scene = with_lamp(0);
     scene.lamp.cone_deg = cone_deg;
-    return middle(Renderer(context, scene, plain()).render_linear({}, k), 2);
+    return middle(Renderer(device, scene, plain()).render_linear({}, k), 2);
   };
   const Intrinsics ahead = pinhole(128, 128, 400);
   Intrinsics aside = ahead;
@@ -208,8 +209,8 @@ TEST(Air, LampsBeamIsScatteredByThePhaseFunction) {
     scene.lamp.cone_deg = 60;
     scene.air.fog_density = 0.1;
     scene.air.fog_asymmetry = g;
-    GlContext context;
-    Renderer renderer(context, scene, plain());
+    SoftwareDevice device;
+    Renderer renderer(device, scene, plain());
     const Intrinsics k = pinhole(65, 65, 40);
     const LinearFrame image = renderer.render_linear(Pose{{}, {0, 0, 20}}, k);
     for (const int u : {20, 32, 44}) {
@@ -241,10 +242,10 @@ TEST(Air, SunlightIsScatteredForwards) {
     scene.air.fog_density = 0.5;
     scene.air.fog_height = height;
     scene.air.fog_asymmetry = g;
-    GlContext context;
+    SoftwareDevice device;
     RenderOptions options = plain();
     options.bake = true, options.bake_rays = 16;
-    Renderer renderer(context, scene, options);
+    Renderer renderer(device, scene, options);
     const Pose pose{portable::quat_from_rpy(0, 0, yaw), {0, 0, 1}};
     return double(renderer.render_linear(pose, pinhole(32, 32, 40)).rgb[(8 * 32 + 16) * 3 + 1]);
   };
@@ -261,9 +262,9 @@ TEST(Fog, HidesTheHorizon) {
   Scene scene;
   scene.lamp.on = false;
   scene.air.fog_density = 0.3;
-  GlContext context;
+  SoftwareDevice device;
   const LinearFrame frame =
-      Renderer(context, scene, plain()).render_linear({{}, {0, 0, 1.5}}, pinhole(64, 64, 200));
+      Renderer(device, scene, plain()).render_linear({{}, {0, 0, 1.5}}, pinhole(64, 64, 200));
   const auto green = [&](int row) { return double(frame.rgb[std::size_t(row * 64 + 32) * 3 + 1]); };
   EXPECT_NEAR(green(35) / green(28), 1, 0.02);
 }
@@ -292,9 +293,9 @@ TEST(Lamp, ThrowsItsOwnShadow) {
   const auto column = [&](bool plate) {
     scene.instances.resize(1);
     if (plate) scene.instances.push_back({1, 1, {{}, {1.0, 0.1, 0}}, 2});
-    GlContext context;
+    SoftwareDevice device;
     const LinearFrame f =
-        Renderer(context, scene, plain()).render_linear({}, pinhole(256, 256, 300));
+        Renderer(device, scene, plain()).render_linear({}, pinhole(256, 256, 300));
     // On the wall 5 cm to the right of the axis; the plate is to the left.
     return double(f.rgb[std::size_t(128 * 256 + 128 + int(0.02 / 2 * 300)) * 3 + 1]);
   };

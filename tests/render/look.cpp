@@ -5,6 +5,7 @@
 #include <fstream>
 #include <string>
 
+#include "render/devices/software/software_device.h"
 #include "render/renderer.h"
 #include "tests/render/test_scene.h"
 
@@ -36,8 +37,8 @@ int main(int argc, char** argv) {
                         {"void_lamp", {1.6, 0.3, 0.6}, {-1.5, 0, 0.5}, true, 0},
                         {"void_dark", {-1.2, 0.2, 0.6}, {2, 0, 0.55}, false, 0},
                         {"void_fog", {-1.2, 0.2, 0.6}, {2, 0, 0.55}, true, 0.35}};
-  GlContext context;
-  std::printf("%s, %s\n", context.info().renderer.c_str(), context.info().egl_device.c_str());
+  SoftwareDevice device;
+  std::printf("%s\n", device.info().about.c_str());
   for (const View& view : views) {
     Scene scene = testing::make_heap(pieces, 7);
     scene.lamp.on = view.lamp;
@@ -45,7 +46,7 @@ int main(int argc, char** argv) {
     RenderOptions options;
     options.threads = 2;
     double last = -1;
-    Renderer renderer(context, scene, options, [&](double f) {
+    Renderer renderer(device, scene, options, [&](double f) {
       if (f - last > 0.2 || f == 1) std::printf("prepare %.0f%%\n", 100 * f), last = f;
     });
     Frame frame;

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "kernel/base/portable_math.h"
+#include "render/devices/software/software_device.h"
 #include "render/renderer.h"
 #include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
@@ -56,8 +57,8 @@ TEST(Motion, AFallingBoxIsAsDeepAsFreeFallSays) {
   const auto height = [](double t) { return 12 - 0.5 * kGravity * t * t; };
   set_moving(scene, 1, [&](std::size_t, double t) { return Pose{{}, {0, 0, height(t)}}; },
              {{0, 0, 0}, {0, 0, 12}});
-  GlContext context;
-  Renderer renderer(context, scene, plain());
+  SoftwareDevice device;
+  Renderer renderer(device, scene, plain());
   const Pose up{portable::quat_from_rpy(0, -portable::kPi / 2, 0), {0, 0, 1}};
   const Intrinsics k = pinhole(65, 65, 60);
   for (const double t : {0.0, 0.4, 1.1, 0.7}) {
@@ -74,8 +75,8 @@ TEST(Motion, FlowIsThePointsOwnMotion) {
     return Pose{portable::quat_from_rpy(0.9 * t, 0, 0), {5 - 0.5 * t, 0.8 * t, 3}};
   };
   set_moving(scene, 1, [&](std::size_t, double t) { return pose_at(t); }, {{0, -3, 0}, {8, 3, 4}});
-  GlContext context;
-  Renderer renderer(context, scene, plain());
+  SoftwareDevice device;
+  Renderer renderer(device, scene, plain());
   const Intrinsics k = pinhole(80, 60, 70);
   const Pose now{{}, {0, 0, 3}}, then{portable::quat_from_rpy(0, 0, 0.02), {0.1, 0.05, 3}};
   const ViewRays next = view_at(then, k, kSecond / 10);
@@ -109,8 +110,8 @@ TEST(Motion, WhatWillNotBeThereHasNoFlow) {
                return Pose{{}, {5, 0, 3}};
              },
              {{5, 0, 3}, {5, 0, 3}});
-  GlContext context;
-  Renderer renderer(context, scene, plain());
+  SoftwareDevice device;
+  Renderer renderer(device, scene, plain());
   const Intrinsics k = pinhole(80, 60, 70);
   const Pose pose{{}, {0, 0, 3}};
   const ViewRays next = view_at(pose, k, kSecond / 10);
@@ -155,13 +156,13 @@ Frame draw_heap(Renderer& renderer, double t, const Intrinsics& k) {
 }
 
 TEST(Motion, IsSeenAsIfItStoodThere) {
-  GlContext context;
+  SoftwareDevice device;
   Intrinsics k = pinhole(96, 72, 80);
-  Renderer moving(context, heap_at(0, true), plain());
+  Renderer moving(device, heap_at(0, true), plain());
   for (const double lens : {0.0, 0.05}) {
     k.distortion[0] = lens;
     for (const double t : {0.5, 0.0, 1.5}) {
-      Renderer standing(context, heap_at(t, false), plain());
+      Renderer standing(device, heap_at(t, false), plain());
       const Frame a = draw_heap(moving, t, k), b = draw_heap(standing, t, k);
       EXPECT_EQ(instances_of(a), instances_of(b)) << t;
       EXPECT_EQ(labels_of(a), labels_of(b));
@@ -175,9 +176,9 @@ TEST(Motion, IsSeenAsIfItStoodThere) {
 }
 
 TEST(Motion, AFrameDoesNotDependOnThoseBefore) {
-  GlContext context;
+  SoftwareDevice device;
   const Intrinsics k = pinhole(96, 72, 80);
-  Renderer forth(context, heap_at(0, true), plain()), back(context, heap_at(0, true), plain());
+  Renderer forth(device, heap_at(0, true), plain()), back(device, heap_at(0, true), plain());
   std::vector<Frame> first, second;
   for (const double t : {0.0, 0.5, 1.0}) first.push_back(draw_heap(forth, t, k));
   for (const double t : {1.0, 0.5, 0.0}) second.insert(second.begin(), draw_heap(back, t, k));
@@ -213,10 +214,10 @@ TEST(Motion, ThrowsAShadowWhereItIs) {
                return Pose{{}, {20.0 * (t - 2), 0, 4}};
              },
              {{-20, 0, 4}, {20, 0, 4}});
-  GlContext context;
+  SoftwareDevice device;
   RenderOptions options = plain();
   options.shadow_size = 2048;
-  Renderer renderer(context, scene, options);
+  Renderer renderer(device, scene, options);
   const double open = ground_at(renderer, 0), under = ground_at(renderer, 2);
   EXPECT_NEAR(ground_at(renderer, 1), open, 0.03 * open);
   EXPECT_LT(under, 0.25 * open);
@@ -232,10 +233,10 @@ TEST(Motion, IsLitAsIfItRestedThere) {
   resting.instances[0].world_from_body = {{}, {0, 0, 4}};
   set_moving(moving, 1, [](std::size_t, double) { return Pose{{}, {0, 0, 4}}; },
              {{0, 0, 4}, {0, 0, 4}});
-  GlContext context;
+  SoftwareDevice device;
   RenderOptions options = plain();
   options.bake = true;
-  Renderer a(context, moving, options), b(context, resting, options);
+  Renderer a(device, moving, options), b(device, resting, options);
   for (const Vec3& eye : {Vec3(6, 1, 5), Vec3(-6, 1, 5), Vec3(1, 7, 2), Vec3(1, 1, 9)}) {
     const ViewRays view = view_at(look_at(eye, {0, 0, 4}), pinhole(64, 48, 60), 0);
     const LinearFrame x = a.render_linear(view), y = b.render_linear(view);
@@ -271,8 +272,8 @@ TEST(Motion, LightFoundWhereItMovesIsThatFoundEverywhere) {
   };
   RenderOptions options = plain();
   options.bake = true;
-  GlContext context;
-  Renderer few(context, scene_with(false), options), many(context, scene_with(true), options);
+  SoftwareDevice device;
+  Renderer few(device, scene_with(false), options), many(device, scene_with(true), options);
   const Intrinsics k = pinhole(64, 48, 80);
   const Pose eye{portable::quat_from_rpy(0, 0.15, 0.3), {-4, -1.2, 1.5}};
   double moved = 0;
@@ -291,13 +292,13 @@ TEST(Motion, ShiftsAreThoseOfThePoints) {
   Scene scene = slab_scene({0.2, 2, 2});
   set_moving(scene, 1, [](std::size_t, double t) { return Pose{{}, {5, 0.5 * t, 3}}; },
              {{5, -1, 3}, {5, 1, 3}});
-  GlContext context;
-  Renderer renderer(context, scene, plain());
+  SoftwareDevice device;
+  Renderer renderer(device, scene, plain());
   const ViewRays view = view_at({{}, {0, 0, 3}}, pinhole(80, 60, 70), 0);
   const std::vector<Vec3f> shifts = renderer.view(view).shifts(kSecond / 2);
   EXPECT_NEAR(shifts[30 * 80 + 40].y, 0.25, 1e-6);
   EXPECT_EQ(norm(shifts[55 * 80 + 40]), 0);
-  Renderer still(context, slab_scene({1, 1, 1}), plain());
+  Renderer still(device, slab_scene({1, 1, 1}), plain());
   EXPECT_TRUE(still.view(view).shifts(kSecond).empty());
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/devices/software/software_device.h"
 #include "tests/render/camera_scenes.h"
 
 namespace rubble::testing {
@@ -23,8 +24,8 @@ std::vector<double> profile(const Frame& frame, int row) {
 TEST(MotionBlur, IsARampOfTheLengthOfTheMotion) {
   Scene scene = lit_wall();
   scene.light.rpy_deg = {0, 70, 180};  // the wall is dark against an even sky
-  GlContext context;
-  Renderer renderer(context, scene, plain());
+  SoftwareDevice device;
+  Renderer renderer(device, scene, plain());
   CameraSpec spec = fixed_camera(160, 16, 400);
   spec.exposure.time = 0.06;  // 12 pixels
   spec.exposure.f_number = 36;
@@ -67,8 +68,8 @@ TEST(MotionBlur, OfWhatMovesIsARampAsWell) {
     const double t = double(stamp_ns - 5'000'000'000) * 1e-9;  // since the flight's first frame
     return std::vector<std::optional<Pose>>{Pose{{}, {4.5, 10 - 2 * t, 0}}};
   };
-  GlContext context;
-  Renderer renderer(context, scene, plain());
+  SoftwareDevice device;
+  Renderer renderer(device, scene, plain());
   CameraSpec spec = fixed_camera(160, 16, 400);
   spec.exposure.time = 0.06;  // 12 pixels
   spec.exposure.f_number = 36;
@@ -91,8 +92,8 @@ TEST(MotionBlur, OfWhatMovesIsARampAsWell) {
 
 // Row v is exposed readout * (v / (rows - 1) - 1/2) after the stamp.
 TEST(RollingShutter, SkewsByTheReadoutTime) {
-  GlContext context;
-  Renderer renderer(context, lit_wall(), plain());
+  SoftwareDevice device;
+  Renderer renderer(device, lit_wall(), plain());
   CameraSpec spec = fixed_camera(160, 120, 400);
   spec.shutter.readout = 0.05;  // 20 pixels
   spec.channels = {find_image_stream("instance")};
@@ -110,8 +111,8 @@ TEST(RollingShutter, SkewsByTheReadoutTime) {
 
 // With a rolling shutter the flow ends in the row at whose time the point is seen.
 TEST(RollingShutter, FlowKeepsToTheRowsOwnTimes) {
-  GlContext context;
-  Renderer renderer(context, lit_wall(), plain());
+  SoftwareDevice device;
+  Renderer renderer(device, lit_wall(), plain());
   CameraSpec spec;
   spec.intrinsics = pinhole(160, 120, 200);
   spec.shutter.readout = 0.05;
@@ -128,9 +129,9 @@ TEST(RollingShutter, FlowKeepsToTheRowsOwnTimes) {
 }
 
 TEST(Stereo, DisparityIsFocalLengthTimesBaselineOverDepth) {
-  GlContext context;
+  SoftwareDevice device;
   for (const ExposureMode mode : {ExposureMode::ideal, ExposureMode::fixed}) {
-    Renderer renderer(context, lit_wall(), plain());
+    Renderer renderer(device, lit_wall(), plain());
     CameraSpec spec = fixed_camera(160, 16, 200);
     spec.exposure.mode = mode;
     spec.exposure.f_number = 16;
@@ -173,9 +174,9 @@ TEST(Stereo, BothPicturesSeeTheSameLamp) {
   scene.lamp.position = {0, 0, 0};
   scene.lamp.cone_deg = 12;
   scene.lamp.intensity_cd = 4000;
-  GlContext context;
+  SoftwareDevice device;
   for (const ExposureMode mode : {ExposureMode::ideal, ExposureMode::fixed}) {
-    Renderer renderer(context, scene, plain());
+    Renderer renderer(device, scene, plain());
     CameraSpec spec = fixed_camera(161, 17, 200);
     spec.exposure.mode = mode;
     spec.baseline = 0.4;  // 20 pixels at 4 m

@@ -11,6 +11,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
+#include "render/devices/software/software_device.h"
 #include "render/optics/lens_surface.h"
 #include "render/sensors/camera.h"
 #include "tests/render/cached_options.h"
@@ -273,10 +274,10 @@ Flight one_frame() {
 
 TEST(CameraOptics, ChangesTheColoursAlone) {
   const Scene scene = make_heap(40, 2);
-  GlContext context;
+  SoftwareDevice device;
   RenderOptions options = cached_options();
   options.bake = false, options.shadow_size = 64, options.texture_size = 16;
-  Renderer renderer(context, scene, options);
+  Renderer renderer(device, scene, options);
   CameraSpec spec;
   spec.intrinsics = pinhole(96, 64, 60);
   spec.baseline = 0.1;
@@ -304,10 +305,10 @@ TEST(CameraOptics, PixelsSeeTheirWholeArea) {
   scene.light.rpy_deg = {0, 30, 0};
   scene.meshes.push_back(share(make_box({1, 20, 40}, "plaster")));
   scene.instances.push_back({0, 1, {{}, {4.5, 10, 0}}, 5});
-  GlContext context;
+  SoftwareDevice device;
   RenderOptions options = cached_options();
   options.bake = false, options.shadow_size = 64, options.texture_size = 16;
-  Renderer renderer(context, scene, options);
+  Renderer renderer(device, scene, options);
   Flight flight = one_frame();
   flight.world_from_camera = {{portable::quat_from_rpy(0.2, 0, 0), {}}};
   flight.pose_at = [pose = flight.world_from_camera[0]](std::int64_t) { return pose; };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "render/devices/software/software_device.h"
 #include "render/geometry/geometry.h"
 #include "render/lidar/lidar.h"
 #include "render/reference/image_key.h"
@@ -78,9 +79,9 @@ RenderOptions plain(RenderQuality quality = RenderQuality::fast, int samples = 4
 }
 
 // From straight above, north up: the sheet fills 200 of 220 pixels.
-LinearFrame from_above(GlContext& context, const Scene& scene, const RenderOptions& options, double height = 10) {
+LinearFrame from_above(Device& device, const Scene& scene, const RenderOptions& options, double height = 10) {
   const Pose down = look_at({0, 0, height}, {0, 1e-6, 0});
-  return Renderer(context, scene, options).render_linear(down, pinhole(220, 220, 100 * height));
+  return Renderer(device, scene, options).render_linear(down, pinhole(220, 220, 100 * height));
 }
 
 // Where each pixel of from_above() meets the ground.
@@ -91,13 +92,13 @@ Vec3 place_of(std::size_t pixel) {
 double to_linear(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
 
 // Light by white paint's is albedo: over a ramp it tells where each pixel's texel lies.
-void expect_ramp(GlContext& context, int cells, RenderQuality quality) {
+void expect_ramp(Device& device, int cells, RenderQuality quality) {
   auto ramp = make_paint("ramp");
   ramp->albedo = make_image(64, [](int x, int y) {
     return std::array<std::uint8_t, 4>{std::uint8_t(40 + 3 * x), std::uint8_t(40 + 3 * y), 128, 255};
   });
-  const LinearFrame seen = from_above(context, scene_of(make_sheet(cells, ramp)), plain(quality));
-  const LinearFrame white = from_above(context, scene_of(make_sheet(cells, make_paint("white"))), plain(quality));
+  const LinearFrame seen = from_above(device, scene_of(make_sheet(cells, ramp)), plain(quality));
+  const LinearFrame white = from_above(device, scene_of(make_sheet(cells, make_paint("white"))), plain(quality));
   double worst = 0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < seen.instance.size(); ++i) {
@@ -115,22 +116,22 @@ void expect_ramp(GlContext& context, int cells, RenderQuality quality) {
 }
 
 TEST(Paint, LiesWhereTheMeshSays) {
-  GlContext context;
-  for (const int cells : {1, 3, 40}) expect_ramp(context, cells, RenderQuality::fast);
-  expect_ramp(context, 3, RenderQuality::reference);
+  SoftwareDevice device;
+  for (const int cells : {1, 3, 40}) expect_ramp(device, cells, RenderQuality::fast);
+  expect_ramp(device, 3, RenderQuality::reference);
 }
 
 // Squares of one texel, black and white, from so far that a pixel has many of them: half the light.
 TEST(Paint, IsAveragedAsLightFromAfar) {
-  GlContext context;
+  SoftwareDevice device;
   auto checks = make_paint("checks");
   checks->albedo = make_image(1024, [](int x, int y) {
     const std::uint8_t v = (x + y) % 2 ? 255 : 0;
     return std::array<std::uint8_t, 4>{v, v, v, 255};
   });
   for (const RenderQuality quality : {RenderQuality::fast, RenderQuality::reference}) {
-    const LinearFrame seen = from_above(context, scene_of(make_sheet(2, checks)), plain(quality));
-    const LinearFrame white = from_above(context, scene_of(make_sheet(2, make_paint("white"))), plain(quality));
+    const LinearFrame seen = from_above(device, scene_of(make_sheet(2, checks)), plain(quality));
+    const LinearFrame white = from_above(device, scene_of(make_sheet(2, make_paint("white"))), plain(quality));
     double sum = 0, all = 0;
     for (std::size_t i = 0; i < seen.instance.size(); ++i)
       if (seen.instance[i] != kNoInstance) sum += double(seen.rgb[3 * i]), all += double(white.rgb[3 * i]);
@@ -139,12 +140,12 @@ TEST(Paint, IsAveragedAsLightFromAfar) {
 }
 
 TEST(Paint, OfVerticesIsBetweenThem) {
-  GlContext context;
+  SoftwareDevice device;
   TriangleMesh mesh = make_sheet(3, make_paint("scan"));
   for (auto& corners : mesh.paint_corners)
     for (PaintCorner& c : corners) c.colour = {0.2f + 0.6f * c.u, 0.5f, 0.8f - 0.6f * c.v};
-  const LinearFrame seen = from_above(context, scene_of(mesh), plain());
-  const LinearFrame white = from_above(context, scene_of(make_sheet(3, make_paint("white"))), plain());
+  const LinearFrame seen = from_above(device, scene_of(mesh), plain());
+  const LinearFrame white = from_above(device, scene_of(make_sheet(3, make_paint("white"))), plain());
   for (std::size_t i = 0; i < seen.instance.size(); ++i) {
     const Vec3 at = place_of(i);
     if (std::max(std::fabs(at.x), std::fabs(at.y)) > 0.97) continue;
@@ -187,7 +188,7 @@ TEST(Paint, ReliefLeansAsTheImageLies) {
 
 // Images, relief, gloss and metal on a turned block: the fast renderer and the path tracer draw the same.
 TEST(Paint, IsTheSameByBothRenderers) {
-  GlContext context;
+  SoftwareDevice device;
   auto paint = make_paint("all");
   paint->reflectance = 0.04f, paint->roughness = 0.9f, paint->metalness = 1;
   paint->albedo = make_image(16, [](int x, int y) {
@@ -199,8 +200,8 @@ TEST(Paint, IsTheSameByBothRenderers) {
   for (const double wetness : {0.0, 0.6}) {
     Scene scene = scene_of(make_sheet(5, paint), {normalized(Quat(0.9, 0.2, -0.3, 0.1)), {0, 0, 0}});
     scene.wetness = wetness;
-    const LinearFrame fast = from_above(context, scene, plain());
-    const LinearFrame slow = from_above(context, scene, plain(RenderQuality::reference, 16));
+    const LinearFrame fast = from_above(device, scene, plain());
+    const LinearFrame slow = from_above(device, scene, plain(RenderQuality::reference, 16));
     double sum = 0, off = 0;
     for (std::size_t i = 0; i < fast.rgb.size(); ++i) {
       if (fast.instance[i / 3] == kNoInstance) continue;

@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "kernel/base/portable_math.h"
-#include "render/gl/gl_context.h"
+#include "render/devices/software/software_device.h"
 #include "render/media/falling_drops.h"
 #include "render/media/medium.h"
 #include "render/media/streaks.h"
@@ -205,10 +205,10 @@ struct Exposure {
 
   // The mean of `images` at every half second.
   std::vector<float> light(int images = 1) const {
-    GlContext context({-1, 1});
+    SoftwareDevice device;
     RenderOptions options = testing::cached_options();
     options.threads = threads, options.bake = false;
-    Renderer renderer(context, scene, options);
+    Renderer renderer(device, scene, options);
     std::vector<float> sum(std::size_t(k.width) * std::size_t(k.height) * 3);
     for (int i = 0; i < images; ++i) {
       const ViewRays view{i * 500'000'000LL, k, {portable::quat_from_rpy(0, -0.3, 0.3), {0, 0, 1.5}}};

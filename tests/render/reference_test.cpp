@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "kernel/base/portable_math.h"
+#include "render/devices/software/software_device.h"
 #include "render/materials/surface_appearance.h"
 #include "render/reference/denoise.h"
 #include "render/reference/tile_journal.h"
@@ -29,22 +30,22 @@ RenderOptions reference(int samples, int threads = 1) {
 }
 
 TEST(Reference, IsTheSameWhateverTheNumberOfThreads) {
-  GlContext context;
+  SoftwareDevice device;
   const auto draw = [&](int threads) {
-    Renderer renderer(context, make_heap(40, 7), reference(4, threads));
+    Renderer renderer(device, make_heap(40, 7), reference(4, threads));
     return renderer.render(look_at({4, 2, 1.5}, {0, 0, 0.5}), pinhole(80, 70, 60), 0, 1000000000).rgb;
   };
   EXPECT_TRUE(draw(1) == draw(2));
 }
 
 TEST(Reference, LeavesDepthAndChannelsAsTheyAre) {
-  GlContext context;
+  SoftwareDevice device;
   const StreamSet channels{find_image_stream("normals"), find_image_stream("instance"),
                            find_image_stream("label")};
   const auto draw = [&](RenderQuality quality) {
     RenderOptions options = reference(1);
     options.colour.quality = quality, options.bake_rays = 8;
-    Renderer renderer(context, make_heap(40, 7), options);
+    Renderer renderer(device, make_heap(40, 7), options);
     return renderer.view({1000000000, pinhole(80, 70, 60), look_at({4, 2, 1.5}, {0, 0, 0.5})})
         .into_frame(0, channels);
   };
@@ -75,7 +76,7 @@ Scene block_of(const std::string& look) {
 }
 
 TEST(Reference, KnowsTheSurfacesOfTheShader) {
-  GlContext context;
+  SoftwareDevice device;
   for (const SurfaceAppearance& look : all_surface_appearances()) {
     if (look.name == std::string("ground")) continue;
     const auto draw = [&](RenderQuality quality) {
@@ -83,7 +84,7 @@ TEST(Reference, KnowsTheSurfacesOfTheShader) {
       options.colour.quality = quality, options.bake = false;
       options.antialias = false;
       options.texture_size = 32;  // each texel wider than a pixel: both read the finest level
-      return Renderer(context, block_of(look.name), options).render_linear({}, pinhole(64, 64, 1000));
+      return Renderer(device, block_of(look.name), options).render_linear({}, pinhole(64, 64, 1000));
     };
     const LinearFrame fast = draw(RenderQuality::fast), slow = draw(RenderQuality::reference);
     double sum = 0, off = 0;
@@ -100,7 +101,7 @@ TEST(Reference, KnowsTheSurfacesOfTheShader) {
 
 // A block behind two panes, whose depth is that of the first.
 TEST(Reference, SeesThroughGlassAsMuchAsTheFastRendererDoes) {
-  GlContext context;
+  SoftwareDevice device;
   Scene scene = block_of("plaster");
   scene.meshes.push_back(share(make_box({0.006, 0.3, 0.3}, "glass")));
   scene.instances.push_back({1, 1, {portable::quat_from_rpy(0, 0, 0.6), {0.8, 0, 0}}, 2});
@@ -108,7 +109,7 @@ TEST(Reference, SeesThroughGlassAsMuchAsTheFastRendererDoes) {
   const auto draw = [&](RenderQuality quality) {
     RenderOptions options = reference(256);
     options.colour.quality = quality, options.bake = false;
-    return Renderer(context, scene, options).render_linear({}, pinhole(64, 64, 1500));
+    return Renderer(device, scene, options).render_linear({}, pinhole(64, 64, 1500));
   };
   const LinearFrame fast = draw(RenderQuality::fast), slow = draw(RenderQuality::reference);
   double shown = 0, traced = 0;
@@ -137,7 +138,7 @@ Scene cut_block(const std::string& look, bool told) {
 }
 
 TEST(Reference, PiecesOfOneBodyLookLikeTheBody) {
-  GlContext context;
+  SoftwareDevice device;
   for (const std::string look : {"concrete_cast", "brick", "timber"}) {
     for (const RenderQuality quality : {RenderQuality::fast, RenderQuality::reference}) {
       RenderOptions options = reference(1);
@@ -145,7 +146,7 @@ TEST(Reference, PiecesOfOneBodyLookLikeTheBody) {
       options.antialias = false;
       options.texture_size = 64;
       const auto draw = [&](const Scene& scene) {
-        return Renderer(context, scene, options).render_linear({}, pinhole(64, 64, 1000));
+        return Renderer(device, scene, options).render_linear({}, pinhole(64, 64, 1000));
       };
       Scene block = block_of(look);
       block.instances[0].cut_from = {7, {}, 1};
@@ -165,10 +166,10 @@ TEST(Reference, PiecesOfOneBodyLookLikeTheBody) {
 
 // A pinhole as a table of directions, with a pose for each row, is the pinhole.
 TEST(Reference, SeesThroughAnyLensAndShutter) {
-  GlContext context;
+  SoftwareDevice device;
   RenderOptions options = reference(2);
   options.antialias = false;
-  Renderer renderer(context, make_heap(40, 7), options);
+  Renderer renderer(device, make_heap(40, 7), options);
   ViewRays view{1000000000, pinhole(48, 40, 40), look_at({4, 2, 1.5}, {0, 0, 0.5})};
   const LinearFrame plain = renderer.render_linear(view);
   view.directions = make_lens_directions(view.intrinsics, 1);
@@ -193,7 +194,7 @@ TEST(Reference, SeesThroughAnyLensAndShutter) {
 
 // A block that moves is lit, and throws its shadow, where it is.
 TEST(Reference, FollowsWhatMoves) {
-  GlContext context;
+  SoftwareDevice device;
   const auto scene_at = [](double x) {
     Scene scene;
     scene.lamp.on = false;
@@ -219,21 +220,21 @@ TEST(Reference, FollowsWhatMoves) {
       off += std::fabs(double(a.rgb[i]) - double(b.rgb[i])), sum += double(a.rgb[i]);
     return off / sum;
   };
-  Renderer renderer(context, moving, reference(32));
+  Renderer renderer(device, moving, reference(32));
   const LinearFrame start = renderer.render_linear(view);
   view.stamp_ns = 2000000000;
   const LinearFrame end = renderer.render_linear(view);
-  const LinearFrame still = Renderer(context, scene_at(2), reference(32)).render_linear(view);
+  const LinearFrame still = Renderer(device, scene_at(2), reference(32)).render_linear(view);
   EXPECT_GT(mean_off(start, end), 0.02);
   EXPECT_LT(mean_off(still, end), 0.1 * mean_off(start, end));
 }
 
 TEST(Reference, WithWaterIsDarkerAndMirrorsTheSky) {
-  GlContext context;
+  SoftwareDevice device;
   const auto draw = [&](double wetness) {
     Scene scene = make_heap(30, 7);
     scene.wetness = wetness;
-    return Renderer(context, scene, reference(16)).render_linear(look_at({4, 2, 1.5}, {0, 0, 0.5}), pinhole(48, 48, 40));
+    return Renderer(device, scene, reference(16)).render_linear(look_at({4, 2, 1.5}, {0, 0, 0.5}), pinhole(48, 48, 40));
   };
   const auto mean = [](const LinearFrame& f) {
     double sum = 0;
@@ -303,13 +304,13 @@ TEST(Denoise, TakesOutSpecksButNotSmallLights) {
 }
 
 TEST(Denoise, BringsAnImageOfFewSamplesNearerToOneOfMany) {
-  GlContext context;
+  SoftwareDevice device;
   const auto draw = [&](int samples, bool denoise) {
     RenderOptions options = reference(samples, 2);
     options.colour.denoise = denoise;
     Scene scene = make_heap(60, 7);
     const std::vector<float> rgb =
-        Renderer(context, scene, options).render_linear(look_at({1.6, 0.3, 0.6}, {-1.5, 0, 0.5}), pinhole(40, 40, 25)).rgb;
+        Renderer(device, scene, options).render_linear(look_at({1.6, 0.3, 0.6}, {-1.5, 0, 0.5}), pinhole(40, 40, 25)).rgb;
     std::vector<Vec3f> out;
     for (std::size_t i = 0; i < rgb.size(); i += 3) out.push_back({rgb[i], rgb[i + 1], rgb[i + 2]});
     return out;
@@ -328,7 +329,7 @@ struct Folder {
 
 TEST(Reference, GoesOnWhereItWasStopped) {
   const Folder folder;
-  GlContext context;
+  SoftwareDevice device;
   int reports = 0, stop_after = 0;
   RenderOptions options = reference(4);
   options.image_progress = [&](double) {
@@ -336,7 +337,7 @@ TEST(Reference, GoesOnWhereItWasStopped) {
   };
   const auto draw = [&] {
     reports = 0;
-    return Renderer(context, make_heap(40, 7), options)
+    return Renderer(device, make_heap(40, 7), options)
         .render(look_at({4, 2, 1.5}, {0, 0, 0.5}), pinhole(96, 96, 80), 0, 1000000000)
         .rgb;
   };

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "kernel/base/portable_math.h"
+#include "render/devices/software/software_device.h"
 #include "render/renderer.h"
 #include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
@@ -87,11 +88,11 @@ std::string ask(RenderedView& view, int channel) {
 
 std::vector<std::vector<std::string>> ask_one_by_one() {
   std::vector<std::vector<std::string>> channels;
-  GlContext context;
+  SoftwareDevice device;
   const ViewRays next = views().back();
   for (const ViewRays& rays : views()) {
     channels.emplace_back();
-    Renderer renderer(context, restless_heap(), small());
+    Renderer renderer(device, restless_heap(), small());
     for (int channel = 0; channel < kChannels; ++channel) {
       RenderedView view = renderer.view(rays, &next);
       channels.back().push_back(ask(view, channel));
@@ -104,8 +105,8 @@ std::vector<std::vector<std::string>> ask_one_by_one() {
 TEST(RenderedView, GivesItsChannelsInAnyOrder) {
   const auto alone = ask_one_by_one();
   EXPECT_NE(alone[0][1], alone[1][1]) << "views that look alike would prove nothing";
-  GlContext context;
-  Renderer renderer(context, restless_heap(), small());
+  SoftwareDevice device;
+  Renderer renderer(device, restless_heap(), small());
   const ViewRays next = views().back();
   std::vector<RenderedView> open;
   for (const ViewRays& rays : views()) open.push_back(renderer.view(rays, &next));
@@ -120,8 +121,8 @@ TEST(RenderedView, GivesItsChannelsInAnyOrder) {
 }
 
 TEST(RenderedView, MakesAChannelOnce) {
-  GlContext context;
-  Renderer renderer(context, restless_heap(), small());
+  SoftwareDevice device;
+  Renderer renderer(device, restless_heap(), small());
   RenderedView view = renderer.view(views().front());
   EXPECT_EQ(view.times().visibility.elapsed, 0) << "nothing is drawn before it is asked for";
   const float* const depth = view.depth().data();
@@ -138,8 +139,8 @@ TEST(RenderedView, MakesAChannelOnce) {
 }
 
 TEST(RenderedView, FramesHoldTheStreamsThatAreAskedFor) {
-  GlContext context;
-  Renderer renderer(context, restless_heap(), small());
+  SoftwareDevice device;
+  Renderer renderer(device, restless_heap(), small());
   RenderedView view = renderer.view(views().front());
   view.truth(*find_image_stream("normals"));
   const Frame frame = std::move(view).into_frame(4, {find_image_stream("instance")});

@@ -6,6 +6,10 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
+#include "render/camera/view_rays.h"
+#include "render/devices/make_device.h"
+#include "render/devices/software/software_device.h"
+#include "render/gl/gl_context.h"
 #include "render/materials/surface_appearance.h"
 #include "tests/base/environment.h"
 #include "tests/render/test_scene.h"
@@ -24,8 +28,8 @@ RenderOptions small(int threads) {
 
 // A hash over colour and depth of a short flight.
 std::string fly(const Scene& scene, const RenderOptions& options, double shift = 0) {
-  GlContext context;
-  Renderer renderer(context, scene, options);
+  SoftwareDevice device;
+  Renderer renderer(device, scene, options);
   StateHash hash;
   for (int i = 0; i < 3; ++i) {
     const Pose pose = look_at({6 - 1.9 * i, 1 + shift, 1.2}, {0, 0, 0.7});
@@ -49,8 +53,8 @@ TEST(Determinism, SameBitsTwiceAndWithTwoThreads) {
 TEST(Bake, MakesAVoidDarkAndItsMouthBright) {
   Scene scene = make_heap(60, 5);
   scene.lamp.on = false;
-  GlContext context;
-  Renderer renderer(context, scene, small(2));
+  SoftwareDevice device;
+  Renderer renderer(device, scene, small(2));
   const auto mean = [&](const Vec3& eye, const Vec3& target) {
     const LinearFrame f = renderer.render_linear(look_at(eye, target), pinhole(64, 64, 60));
     double sum = 0;
@@ -62,10 +66,29 @@ TEST(Bake, MakesAVoidDarkAndItsMouthBright) {
   EXPECT_GT(deep, 0);
 }
 
+// Whatever the quality and the lens.
+TEST(SoftwareDevice, OpensNoDriver) {
+  const Environment nowhere("RUBBLE_EGL_LIBRARY", "/nowhere/libEGL.so.1");
+  EXPECT_THROW(make_device({DeviceKind::gl}), RunError);  // the control
+  const std::unique_ptr<Device> device = make_device({DeviceKind::software});
+  EXPECT_EQ(device->info().name, "software");
+  for (const RenderQuality quality : {RenderQuality::fast, RenderQuality::draft, RenderQuality::reference}) {
+    RenderOptions options = small(1);
+    options.colour.quality = quality, options.colour.samples = 1;
+    Renderer renderer(*device, make_heap(10, 2), options);
+    Intrinsics k = pinhole(24, 16, 20);
+    EXPECT_GT(renderer.render(look_at({4, 1, 1}, {0, 0, 0.3}), k, 0, 0).rgb.size(), 0u);
+    k.lens = LensModel::fisheye;
+    ViewRays view{0, k, look_at({4, 1, 1}, {0, 0, 0.3})};
+    view.directions = make_lens_directions(k, 1);
+    EXPECT_GT(renderer.view(view).depth().size(), 0u);
+  }
+}
+
 TEST(Renderer, ReportsProgressUpToOne) {
-  GlContext context;
+  SoftwareDevice device;
   std::vector<double> fractions;
-  Renderer renderer(context, make_heap(20, 1), small(1), [&](double f) { fractions.push_back(f); });
+  Renderer renderer(device, make_heap(20, 1), small(1), [&](double f) { fractions.push_back(f); });
   ASSERT_FALSE(fractions.empty());
   EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
   EXPECT_EQ(fractions.back(), 1.0);
@@ -73,10 +96,10 @@ TEST(Renderer, ReportsProgressUpToOne) {
 
 std::string error_of(const Scene& scene, const Intrinsics& k = pinhole(32, 32, 30)) {
   try {
-    GlContext context;
+    SoftwareDevice device;
     RenderOptions options = small(1);
     options.bake = false;
-    Renderer renderer(context, scene, options);
+    Renderer renderer(device, scene, options);
     renderer.render({}, k, 0, 0);
   } catch (const RunError& error) {
     return error.what();

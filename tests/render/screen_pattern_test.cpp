@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/base/portable_math.h"
+#include "render/devices/software/software_device.h"
 #include "render/renderer.h"
 #include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
@@ -34,11 +35,11 @@ struct Shot {
   std::vector<float> luma, flow;  // flow: to the first shot, two a pixel; unit: pixel
 };
 
-std::vector<Shot> fly(GlContext& context) {
+std::vector<Shot> fly(Device& device) {
   RenderOptions options = cached_options();
   options.bake = false, options.antialias = false;
   options.texture_size = 256;
-  Renderer renderer(context, floor_scene(), options);
+  Renderer renderer(device, floor_scene(), options);
   const Intrinsics k = pinhole(kSide, kSide, 0.7 * kSide);
   const auto view = [&](int i) {
     const Vec3 eye(0.02 * i * kStep, i * kStep, 0.6);
@@ -110,14 +111,14 @@ double share_on_grid(const std::vector<Shot>& shots) {
 }
 
 TEST(ScreenPattern, NothingStaysOnThePixelGridWhileTheCameraMoves) {
-  GlContext context;
-  EXPECT_LT(share_on_grid(fly(context)), 0.015);
+  SoftwareDevice device;
+  EXPECT_LT(share_on_grid(fly(device)), 0.015);
 }
 
 // One step of noise glued to the pixels is enough to be found.
 TEST(ScreenPattern, AFaintPatternOnThePixelGridIsFound) {
-  GlContext context;
-  std::vector<Shot> shots = fly(context);
+  SoftwareDevice device;
+  std::vector<Shot> shots = fly(device);
   const double without = share_on_grid(shots);
   for (Shot& shot : shots)
     for (std::size_t i = 0; i < shot.luma.size(); ++i)

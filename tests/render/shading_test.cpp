@@ -1,4 +1,4 @@
-// Colours by the processor beside those by the graphics device's shaders, whose formulas they
+// Colours by the software device beside those by the shaders of gl, whose formulas they
 // repeat; and the same bits from every instruction set.
 #include <gtest/gtest.h>
 
@@ -11,6 +11,8 @@
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
 #include "render/camera/lens.h"
+#include "render/devices/gl/gl_device.h"
+#include "render/devices/software/software_device.h"
 #include "render/renderer.h"
 #include "render/shading/wide_shader.h"
 #include "tests/render/cached_options.h"
@@ -116,14 +118,11 @@ INSTANTIATE_TEST_SUITE_P(Views, Shading, ::testing::Range(std::size_t(0), views(
 INSTANTIATE_TEST_SUITE_P(Views, ShadingBits, ::testing::Range(std::size_t(0), views().size()));
 
 // Textures are halved and mixed with other roundings there, so pixels differ by a step or two.
-TEST_P(Shading, IsThatOfTheDevicesShaders) {
-  GlContext context;
-  RenderOptions options = plain();
-  options.shading = DrawnBy::device;
-  Renderer device(context, scene(), options);
-  options.shading = DrawnBy::processor;
-  Renderer processor(context, scene(), options);
-  RenderedView a = device.view(rays_of(view())), b = processor.view(rays_of(view()));
+TEST_P(Shading, IsThatOfTheShadersOfGl) {
+  GlDevice gl;
+  SoftwareDevice software;
+  Renderer by_gl(gl, scene(), plain()), by_software(software, scene(), plain());
+  RenderedView a = by_gl.view(rays_of(view())), b = by_software.view(rays_of(view()));
   EXPECT_NEAR(double(b.exposure() / a.exposure()), 1, 0.01);
   const std::vector<std::uint8_t>& expected = a.rgb();
   const std::vector<std::uint8_t>& found = b.rgb();
@@ -141,15 +140,15 @@ TEST_P(Shading, IsThatOfTheDevicesShaders) {
 
 // As the control of the one above: a light that is 3 % brighter is seen.
 TEST(ShadingControl, SeesALittleMoreLight) {
-  GlContext context;
+  SoftwareDevice device;
   RenderOptions options = plain();
   options.fixed_exposure = 0.05;
   const View& view = views().front();
   Scene heap = make_heap(60, 4);
   view.change(heap);
-  Renderer one(context, heap, options);
+  Renderer one(device, heap, options);
   options.fixed_exposure *= 1.03;
-  Renderer other(context, heap, options);
+  Renderer other(device, heap, options);
   RenderedView a = one.view(rays_of(view)), b = other.view(rays_of(view));
   double bias = 0;
   for (std::size_t i = 0; i < a.rgb().size(); ++i) bias += int(b.rgb()[i]) - int(a.rgb()[i]);
@@ -158,14 +157,14 @@ TEST(ShadingControl, SeesALittleMoreLight) {
 
 // Each set with another number of threads.
 TEST_P(ShadingBits, AreTheSameByEveryInstructionSetAndAnyNumberOfThreads) {
-  GlContext context;
+  SoftwareDevice device;
   const std::vector<WideShader>& sets = wide_shaders();
   std::vector<float> first;
   for (std::size_t i = 0; i < std::max(sets.size(), std::size_t(3)); ++i) {
     RenderOptions options = plain();
     options.threads = int(i) + 1;
-    options.shading = DrawnBy::processor, options.instruction_set = sets[i % sets.size()].name;
-    Renderer renderer(context, scene(), options);
+    options.instruction_set = sets[i % sets.size()].name;
+    Renderer renderer(device, scene(), options);
     const std::vector<float> found = renderer.view(rays_of(view())).radiance();
     if (first.empty()) first = found;
     ASSERT_EQ(found.size(), first.size());
@@ -175,12 +174,12 @@ TEST_P(ShadingBits, AreTheSameByEveryInstructionSetAndAnyNumberOfThreads) {
   }
 }
 
-// The device keeps the light of the image before, and gets what the lamp changes. So an image after others, of other
+// A card keeps the light of the image before, and gets what the lamp changes. So an image after others, of other
 // places of the camera and of the lamp, is that of a renderer which has drawn nothing else.
-TEST(DeviceLight, IsThatOfARendererWhichDrewNothingBefore) {
-  GlContext context;
+TEST(GlLight, IsThatOfARendererWhichDrewNothingBefore) {
+  GlDevice device;
   RenderOptions options = plain();
-  options.shading = DrawnBy::device, options.fixed_exposure = 2;
+  options.fixed_exposure = 2;
   Scene heap = make_heap(60, 4);
   heap.light.intensity = 0, heap.lamp.on = true;
   const auto look = [](const Vec3& target) {
@@ -189,12 +188,12 @@ TEST(DeviceLight, IsThatOfARendererWhichDrewNothingBefore) {
   const ViewRays at_heap = look({-1.5, 0.1, 0.5}), away = look({8, 0.2, 0.3});
   ViewRays lamp_far = at_heap;  // no piece is lit
   lamp_far.world_from_rig = look_at({60, 0, 5}, {80, 0, 5});
-  Renderer used(context, heap, options);
+  Renderer used(device, heap, options);
   const std::vector<std::uint8_t> lit = used.view(at_heap).rgb();
   used.view(away).rgb();
   const std::vector<std::uint8_t> unlit = used.view(lamp_far).rgb(), again = used.view(at_heap).rgb();
   EXPECT_EQ(again, lit);
-  Renderer fresh(context, heap, options);
+  Renderer fresh(device, heap, options);
   EXPECT_EQ(fresh.view(lamp_far).rgb(), unlit);
   EXPECT_NE(lit, unlit);
   EXPECT_EQ(fresh.view(at_heap).rgb(), lit);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "render/devices/software/software_device.h"
 #include "render/sky/atmosphere.h"
 #include "render/sky/clouds.h"
 #include "render/lighting/lighting.h"
@@ -189,7 +190,7 @@ TEST(Cloudy, FollowsFromTheSeedAndStaysWithinDaylight) {
 
 // Level ground under each sky: baked light and paths agree.
 TEST(Skies, LightTheGroundAlikeInBothRenderers) {
-  GlContext context;
+  SoftwareDevice device;
   const Pose down = look_at({0, 0, 2}, {0.01, 0, 0});
   for (const SkyType type : {SkyType::clear, SkyType::hazy, SkyType::cloudy, SkyType::overcast,
                              SkyType::moonlit, SkyType::city_night, SkyType::cie_clear}) {
@@ -197,7 +198,7 @@ TEST(Skies, LightTheGroundAlikeInBothRenderers) {
       RenderOptions options;
       options.colour.quality = quality, options.colour.samples = 256;
       options.bake = false, options.shadow_size = 64, options.texture_size = 64;
-      Renderer renderer(context, under(type, 45), options);
+      Renderer renderer(device, under(type, 45), options);
       const LinearFrame frame = renderer.render_linear(down, pinhole(24, 24, 20));
       double sum = 0;
       for (std::size_t i = 1; i < frame.rgb.size(); i += 3) sum += double(frame.rgb[i]);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "kernel/base/portable_math.h"
+#include "render/devices/software/software_device.h"
 #include "render/renderer.h"
 #include "render/streams/image_streams.h"
 #include "tests/render/cached_options.h"
@@ -93,7 +94,7 @@ TEST(Streams, StateSizeAndEncodingOfTheirValues) {
 // The ground is z = 0; a turned plane has its own equation; both within a float's rounding of the
 // distance from the world's origin.
 TEST(PositionStream, LiesOnThePlanesThatAreSeen) {
-  GlContext context;
+  SoftwareDevice device;
   RenderOptions options = cached_options();
   options.bake = false;
   options.shadow_size = 64;
@@ -102,7 +103,7 @@ TEST(PositionStream, LiesOnThePlanesThatAreSeen) {
   scene.meshes.push_back(share(make_box({1, 80, 80})));
   const Quat turn = portable::quat_from_rpy(0.1, -0.2, 0.4);
   scene.instances.push_back({0, 1, {turn, {4, 0, 3}}, 1});
-  Renderer renderer(context, scene, options);
+  Renderer renderer(device, scene, options);
   const Intrinsics k = pinhole(64, 48, 40);
   const Pose camera{portable::quat_from_rpy(0, 0.5, 0.1), {-1, 0.3, 1.5}};
   const Frame frame = renderer.view({0, k, camera})

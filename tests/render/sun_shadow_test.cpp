@@ -6,8 +6,10 @@
 #include <optional>
 
 #include "kernel/base/portable_math.h"
+#include "render/devices/gl/gl_device.h"
+#include "render/devices/software/software_device.h"
 #include "render/lighting/lighting.h"
-#include "render/passes/shadow_edge_pass.h"
+#include "render/passes/shadow_views.h"
 #include "render/renderer.h"
 #include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
@@ -65,11 +67,11 @@ struct Pixel {
 
 // Row after row. The light of the sky is what is left in the umbra.
 std::vector<Pixel> draw(double height, RenderQuality quality = RenderQuality::fast) {
-  GlContext context;
+  SoftwareDevice device;
   RenderOptions chosen = options();
   chosen.colour.quality = quality;
   const ViewRays view{0, kLens, camera(height)};
-  Renderer open(context, edge_scene(0), chosen), covered(context, edge_scene(height), chosen);
+  Renderer open(device, edge_scene(0), chosen), covered(device, edge_scene(height), chosen);
   const std::vector<float> lit = open.render_linear(view).rgb, drawn = covered.render_linear(view).rgb;
   const Frame frame = covered.view(view).into_frame(0, {find_image_stream("position")});
   const std::vector<float>& places = frame.get<float>("position");
@@ -124,22 +126,44 @@ TEST_P(Penumbra, IsNotInDrafts) {
 INSTANTIATE_TEST_SUITE_P(Heights, Penumbra, ::testing::Values(0.5, 2.0));
 
 TEST(SunShadow, HasTheSameBitsForAnyNumberOfThreads) {
-  GlContext context;
+  SoftwareDevice device;
   const auto draw_with = [&](int threads) {
-    return Renderer(context, make_heap(60, 3), options(threads))
+    return Renderer(device, make_heap(60, 3), options(threads))
         .render_linear(look_at({3, 2, 1.5}, {0, 0, 0.4}), pinhole(160, 120, 150))
         .rgb;
   };
   EXPECT_TRUE(draw_with(1) == draw_with(2));
 }
 
+// Pixels whose share of the sun is another: a texel of the map lies on an edge within its rounding.
+TEST(SunShadow, IsThatOfTheShadersOfGl) {
+  GlDevice gl;
+  SoftwareDevice software;
+  const Scene scene = make_heap(60, 3);
+  const auto draw_by = [&](Device& device) {
+    RenderOptions chosen = options();
+    chosen.shadow_size = 1024;
+    return Renderer(device, scene, chosen).render_linear(look_at({3, 2, 1.5}, {0, 0, 0.4}), pinhole(160, 120, 150)).rgb;
+  };
+  const std::vector<float> a = draw_by(gl), b = draw_by(software);
+  ASSERT_EQ(a.size(), b.size());
+  double sum = 0, off = 0;
+  std::size_t far = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    sum += double(a[i]), off += std::fabs(double(a[i] - b[i]));
+    far += std::fabs(a[i] - b[i]) > 0.1f * std::max(a[i], b[i]);
+  }
+  EXPECT_LT(off / sum, 0.004);
+  EXPECT_LT(double(far) / double(a.size()), 0.004);
+}
+
 // Of the pixels that the slab does not light anew, the light is the same whether it rests or has moved to its place.
 TEST(SunShadow, OfWhatMovesIsThatOfWhatRests) {
-  GlContext context;
+  SoftwareDevice device;
   const ViewRays view{1000000000, kLens, camera(0.5)};
   Scene scene = edge_scene(0.5);
   const Pose place = scene.instances[1].world_from_body;
-  const std::vector<float> rests = Renderer(context, scene, options()).render_linear(view).rgb;
+  const std::vector<float> rests = Renderer(device, scene, options()).render_linear(view).rgb;
   scene.motion.moving = {1};
   scene.motion.reach = {{-3, -2, 0}, {1, 2, 1}};
   scene.motion.poses_at = [place](std::int64_t stamp_ns) {
@@ -147,7 +171,7 @@ TEST(SunShadow, OfWhatMovesIsThatOfWhatRests) {
     pose.translation.x -= 1 - double(stamp_ns) * 1e-9;
     return std::vector<std::optional<Pose>>{pose};
   };
-  Renderer renderer(context, scene, options());
+  Renderer renderer(device, scene, options());
   renderer.render_linear({0, kLens, camera(0.5)});  // where it was before
   const std::vector<float> moved = renderer.render_linear(view).rgb;
   const auto range = [](const std::vector<float>& rgb, std::size_t at) {
@@ -163,7 +187,7 @@ TEST(SunShadow, OfWhatMovesIsThatOfWhatRests) {
 }
 
 TEST(SunShadow, RectanglesAreMergedWithoutLosingAny) {
-  const std::vector<ShadowEdgePass::Rect> merged =
+  const std::vector<TexelRect> merged =
       merge_rects({{0, 0, 4, 4}, {20, 20, 24, 24}, {2, 0, 6, 4}, {21, 21, 22, 22}});
   ASSERT_EQ(merged.size(), 2u);
   EXPECT_EQ(merged[0].x0, 0);

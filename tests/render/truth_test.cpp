@@ -7,6 +7,7 @@
 
 #include "kernel/base/portable_math.h"
 #include "render/camera/lens.h"
+#include "render/devices/software/software_device.h"
 #include "render/renderer.h"
 #include "tests/render/cached_options.h"
 #include "tests/render/test_scene.h"
@@ -28,8 +29,8 @@ StreamSet all_channels() { return truth_streams(); }
 
 Frame draw(const Scene& scene, const Pose& pose, const Intrinsics& k, const StreamSet& channels,
            const Pose* next = nullptr) {
-  GlContext context;
-  Renderer renderer(context, scene, plain());
+  SoftwareDevice device;
+  Renderer renderer(device, scene, plain());
   ViewRays rays;
   if (next) rays.world_from_camera = *next;
   return renderer.view({0, k, pose}, next ? &rays : nullptr).into_frame(0, channels);

@@ -19,7 +19,7 @@ mv "$stage/bin/rubble" "$stage/libexec/rubble"  # finds ../share/rubble as it di
 # What is opened at run time and no linker knows of.
 libraries=/usr/lib/$(uname -m)-linux-gnu
 list=$output/$name.libraries
-printf '%s\n' "$libraries/libEGL.so.1" "$libraries/libEGL_mesa.so.0" "$libraries/dri/swrast_dri.so" >"$list.opened"
+printf '%s\n' "$libraries/libEGL.so.1" "$libraries/libEGL_mesa.so.0" "$libraries/libSDL2-2.0.so.0" "$libraries/dri/swrast_dri.so" >"$list.opened"
 cp /usr/share/glvnd/egl_vendor.d/50_mesa.json "$stage/share/glvnd"
 
 # ldd lists what these want, and what that wants in turn.

@@ -11,6 +11,7 @@
 #include "app/assets/assets_tree.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/support/drawing_device.h"
 #include "app/support/print.h"
 #include "app/support/run_request.h"
 #include "io/image/picture_sheet.h"
@@ -157,7 +158,7 @@ Scene stage(std::vector<Exhibit*>& row) {
   return scene;
 }
 
-void draw_row(GlContext& context, std::vector<Exhibit*> row, std::vector<SheetTile>& tiles,
+void draw_row(Device& device, std::vector<Exhibit*> row, std::vector<SheetTile>& tiles,
               const std::vector<Exhibit>& all, int tile, int threads) {
   RenderOptions options;
   options.threads = threads;
@@ -167,7 +168,7 @@ void draw_row(GlContext& context, std::vector<Exhibit*> row, std::vector<SheetTi
   k.fx = k.fy = 0.5 * k.height / portable::sin(0.5 * kFovDeg * portable::kPi / 180) *
                 portable::cos(0.5 * kFovDeg * portable::kPi / 180);
   k.cx = 0.5 * (k.width - 1), k.cy = 0.5 * (k.height - 1);
-  Renderer renderer(context, scene, options);
+  Renderer renderer(device, scene, options);
   for (Exhibit* e : row) {
     Frame frame;
     for (int i = 0; i < 3; ++i) frame = renderer.render(view_of(*e), k, i, 1000000000LL * (i + 1));
@@ -203,7 +204,7 @@ ExitCode show_pack(const AssetsShowRequest& request) {
     return exhibits[a].radius < exhibits[b].radius;
   });
   progress.start("render");
-  GlContext gl({request.options.gl_device, context.threads()});
+  const std::unique_ptr<Device> device = open_device(request.options.gl_device, context.threads());
   std::vector<SheetTile> tiles(exhibits.size());
   for (std::size_t i = 0; i < order.size();) {
     std::vector<Exhibit*> row;
@@ -211,7 +212,7 @@ ExitCode show_pack(const AssetsShowRequest& request) {
     while (i < order.size() && exhibits[order[i]].radius <= kSizeRange * smallest) {
       row.push_back(&exhibits[order[i++]]);
     }
-    draw_row(gl, row, tiles, exhibits, request.tile, context.threads());
+    draw_row(*device, row, tiles, exhibits, request.tile, context.threads());
     progress.update(double(i) / double(order.size()), std::to_string(i) + " of " +
                                                           std::to_string(order.size()));
   }

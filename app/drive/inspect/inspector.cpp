@@ -12,6 +12,7 @@
 #include "app/pipeline/stages.h"
 #include "app/scene/moving_scene.h"
 #include "app/sensors/build_camera.h"
+#include "app/support/drawing_device.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
 #include "app/surroundings/pile_surroundings.h"
@@ -118,9 +119,7 @@ Inspector::Inspector(const DriveRequest& request)
       folder_(choose_inspection_folder(request)),
       controls_(LeftButton::pulls),
       window_("rubble inspect", inspect_picture_size(request.width, request.height)[0],
-              inspect_picture_size(request.width, request.height)[1]),
-      context_({request.of.options.gl_device,
-                request.of.options.threads > 0 ? request.of.options.threads : default_thread_count()}) {
+              inspect_picture_size(request.width, request.height)[1]) {
   prepare_inspection_folder(folder_, request_.of.force);
 }
 
@@ -154,7 +153,8 @@ void Inspector::draw_scene(const Scene& scene) {
   options.threads = run_->threads();
   options.bake = false;
   options.colour.quality = RenderQuality::draft;
-  renderer_ = std::make_unique<Renderer>(context_, scene, options);
+  if (!device_) device_ = open_device(run_->options.gl_device, run_->threads());
+  renderer_ = std::make_unique<Renderer>(*device_, scene, options);
   lamp_ = false;
   open_eye();
 }

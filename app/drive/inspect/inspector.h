@@ -21,7 +21,7 @@
 #include "app/drive/overlay/void_survey.h"
 #include "app/session/session.h"
 #include "io/image/drive_picture.h"
-#include "render/gl/gl_context.h"
+#include "render/device/device.h"
 #include "render/renderer.h"
 #include "render/sensors/camera.h"
 
@@ -71,7 +71,7 @@ class Inspector {
   std::string folder_;
   Controls controls_;
   DriveWindow window_;
-  GlContext context_;
+  std::unique_ptr<Device> device_;  // none until there is something to draw
   std::unique_ptr<RunContext> run_;
   std::unique_ptr<ResolvedMission> mission_;
   std::unique_ptr<InspectedPile> pile_;

@@ -23,6 +23,7 @@ from senses import ACTIONS, COLUMNS, FAR, HOLD, ROWS, SIZE, Senses
 ENVIRONMENTS, ROLLOUT = 8, 256
 DISCOUNT, TRACE, CLIP, ENTROPY, EPOCHS, BATCH, RATE = 0.99, 0.95, 0.2, 0.01, 4, 512, 3e-4
 HIDDEN = 64
+ASSESSED = 8  # episodes of each environment, before and after
 
 
 class Net(torch.nn.Module):
@@ -98,6 +99,18 @@ def collect(explorers, net):
     return [x.flatten(0, 1) for x in (seen, done, chance, advantage, advantage + value)]
 
 
+def assess(net, explorers, episodes):
+    """Mean reward and coverage of so many episodes of each explorer, without learning; the random numbers of training stay as
+    they are."""
+    with torch.random.fork_rng(), torch.no_grad():
+        torch.manual_seed(0)
+        for explorer in explorers:
+            while len(explorer.finished) < episodes:
+                actions, _ = net(torch.from_numpy(explorer.seen[None]))
+                explorer.step(int(actions.sample()[0]))
+    return np.mean([row for explorer in explorers for row in explorer.finished[:episodes]], axis=0)
+
+
 def improve(net, optimizer, rollout):
     seen, done, chance, advantage, gain = rollout
     for _ in range(EPOCHS):
@@ -144,18 +157,29 @@ def main():
     parser.add_argument("--steps", type=int, default=400_000, help="actions")
     parser.add_argument("--piles", type=seed_range, default=range(101, 117), metavar="FIRST..LAST")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--curve", metavar="CSV", help="a row for each 16 rollouts: steps, reward and coverage of episodes")
+    parser.add_argument("--curve", metavar="CSV",
+                        help="a row for each 16 rollouts: steps, reward and coverage of episodes; the first and the last row are "
+                             "of the same episodes, before and after")
     args = parser.parse_args()
     torch.manual_seed(args.seed)
     torch.set_num_threads(1)
     with open(args.mission) as file:
         mission = file.read()
-    explorers = [Explorer(VoidExplore(mission=mission, pile_seeds=args.piles[k::ENVIRONMENTS], size=COLUMNS,
-                                      max_range=FAR, max_steps=1500, metres=True), args.seed * 1_000_000 + k)
-                 for k in range(min(ENVIRONMENTS, len(args.piles)))]
+
+    def make_explorers(seed):
+        return [Explorer(VoidExplore(mission=mission, pile_seeds=args.piles[k::ENVIRONMENTS], size=COLUMNS,
+                                     max_range=FAR, max_steps=1500, metres=True), seed * 1_000_000 + k)
+                for k in range(min(ENVIRONMENTS, len(args.piles)))]
+
+    explorers = make_explorers(args.seed)
     net = Net()
     optimizer = torch.optim.Adam(net.parameters(), lr=RATE, eps=1e-5)
-    rows, began, updates = [], time.monotonic(), max(1, args.steps // (len(explorers) * ROLLOUT))
+
+    def assess_row(steps):
+        reward, coverage = assess(net, make_explorers(0), ASSESSED)
+        return [steps, ASSESSED * len(explorers), f"{reward:.2f}", f"{coverage:.3f}"]
+
+    rows, began, updates = [assess_row(0)], time.monotonic(), max(1, args.steps // (len(explorers) * ROLLOUT))
     for update in range(1, updates + 1):
         for group in optimizer.param_groups:
             group["lr"] = RATE * (1 - (update - 1) / updates)
@@ -168,6 +192,9 @@ def main():
         reward, coverage = np.mean(episodes, axis=0) if episodes else (float("nan"),) * 2
         rows.append([update * len(explorers) * ROLLOUT, len(episodes), f"{reward:.2f}", f"{coverage:.3f}"])
         left = (time.monotonic() - began) / update * (updates - update)
+        if update == updates:
+            rows[-1] = assess_row(rows[-1][0])
+            _, _, reward, coverage = map(float, rows[-1])
         print(f"{rows[-1][0]} steps, reward {reward:.2f}, coverage {coverage:.3f}, {left:.0f} s left", flush=True)
     write_weights(net, args.weights)
     if args.curve:

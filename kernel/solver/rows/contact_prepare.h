@@ -212,7 +212,7 @@ RUBBLE_INLINE void prepare_packet(ContactBatch& batch, int first, const Contact*
     total = total + impulse;
   }
   const auto is_new = zero >= select(used, total, one);
-  if (any(is_new)) {
+  if (batch.rows > 1 && any(is_new)) {
     P first_loads[Contact::kMaxPoints];
     const P sum = find_first_loads(batch, first, a.inverse_mass + b.inverse_mass, rows, first_loads);
     for (int i = 0; i < batch.rows; ++i) loads[i] = select(is_new, first_loads[i], loads[i]);

@@ -12,7 +12,7 @@ BodyRates Advance::find_rates(std::size_t index, const StepMotions& motions, con
   if (body.touching || solution.has_intervened(std::int32_t(index))) {
     Motion m = motions.velocities[index];
     const float spin = norm(m.angular);
-    const float most = SpeedLimiter::calc_most_spin(body);
+    const float most = limits.calc_most_spin(std::int32_t(index));
     if (spin > most && !SpeedLimiter::does_roll(index, motions)) m.angular *= most / spin;
     if (motions.lateness > 0 && spin < kSwingingSpin) {
       m.angular *= limits.keep_of_late_spin(body, m.angular, spin, motions.lateness);

@@ -56,7 +56,8 @@ void ContactSearch::update_pair(const StepPairs& step, Pair& pair, Contact& cont
   const PosedBody b = bodies_.posed(data_.colliders[pair.collider_b]);
   const double travel = data_.bodies[pair.body_a].travel + data_.bodies[pair.body_b].travel;
   if (pair.live && travel < pair.searched_until) return follow_contact(contact, a, b);
-  const float apart = update_contact(contact, a, b, margin, settings_.narrow);
+  const bool free = data_.bodies[pair.body_a].tree < 0 && data_.bodies[pair.body_b].tree < 0;
+  const float apart = update_contact(contact, a, b, margin, settings_.narrow, free);
   pair.apart_until = travel + double(apart + kSparedMargin);
   pair.searched_until = travel + kFollowedTravel;
   pair.live = contact.count > 0;

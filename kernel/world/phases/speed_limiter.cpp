@@ -121,8 +121,32 @@ float SpeedLimiter::keep_of_late_spin(const Body& body, const Vec3f& angular, fl
   return std::max(0.0F, 1 - lateness * (kLateDamping + stopped / spin));
 }
 
-float SpeedLimiter::calc_most_spin(const Body& body) {
-  return std::max(kFreeSpin, norm(body.angular) + kSpinGain);
+float SpeedLimiter::calc_most_spin(std::int32_t body) const {
+  const Body& of = data_.bodies[body];
+  const float struck = strikes_.empty() || strikes_[body] < kHardStrike ? 0 : strikes_[body] / of.radius;
+  return std::max({kFreeSpin, norm(of.angular) + kSpinGain, struck});
+}
+
+void SpeedLimiter::find_strikes(const StepPairs& step, const StepMotions& motions) {
+  strikes_.clear();
+  const bool any = std::any_of(step.awake.begin(), step.awake.end(), [&](std::int32_t i) {
+    return norm(motions.velocities[i].angular) > kFreeSpin;
+  });
+  if (!any) return;
+  strikes_.assign(data_.bodies.size(), 0);
+  each_solved(data_, step, [this](const Contact& contact) {
+    if (contact.pressed <= 0) return;
+    const auto velocity_at = [this](std::int32_t body, const Vec3f& arm) {
+      return body == kGround ? Vec3f{} : data_.bodies[body].linear + cross(data_.bodies[body].angular, arm);
+    };
+    for (int i = 0; i < contact.count; ++i) {
+      const ContactPoint& p = contact.points[i];
+      const float closing = dot(contact.normal, velocity_at(contact.body_a, p.from_a) - velocity_at(contact.body_b, p.from_b));
+      for (const std::int32_t body : {contact.body_a, contact.body_b}) {
+        if (body != kGround) strikes_[body] = std::max(strikes_[body], closing);
+      }
+    }
+  });
 }
 
 void SpeedLimiter::find_rolling(const StepPairs& step, StepMotions& motions) {

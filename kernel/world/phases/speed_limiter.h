@@ -23,8 +23,10 @@ class SpeedLimiter {
   float calc_lateness() const;
   // The share of its spin that a piece keeps in a step of a verification that lasts. spin: its length.
   float keep_of_late_spin(const Body& body, const Vec3f& angular, float spin, float lateness) const;
+  // Notes how fast pieces are struck in this step, for calc_most_spin().
+  void find_strikes(const StepPairs& step, const StepMotions& motions);
   // How fast contacts may turn a piece in this step; unit: rad/s.
-  static float calc_most_spin(const Body& body);
+  float calc_most_spin(std::int32_t body) const;
 
  private:
   void return_momentum(std::size_t piece, const Vec3f& speed, StepMotions& motions) const;
@@ -33,6 +35,7 @@ class SpeedLimiter {
   const WorldSettings& settings_;
   std::vector<float> fastest_;           // by body: of the points that touch it; unit: m/s
   std::vector<Vec3f> strikers_;          // by body: velocity of that point; unit: m/s
+  std::vector<float> strikes_;           // by body: closing speed of a contact at most; empty: nothing spins fast; unit: m/s
   std::vector<std::int32_t> neighbour_;  // by body: the only one that touches it
 };
 

@@ -2,8 +2,8 @@
 rubble/VoidExplore-v0, rubble/SnakeExplore-v0 and rubble/CrawlerNav-v0; without it the same classes work with the
 spaces of spaces.py. TeamNav has several robots, by PettingZoo's parallel interface. Batch steps many environments.
 
-    import gymnasium  # the wheel tells it of the environments; a build does when rubble.envs is imported
-    env = gymnasium.make("rubble/VoidExplore-v0", max_episode_steps=200, render_mode="rgb_array")
+    import gymnasium  # which imports rubble.envs by its name
+    env = gymnasium.make("rubble.envs:rubble/VoidExplore-v0", max_episode_steps=200, render_mode="rgb_array")
 or
     env = rubble.envs.VoidExplore()
 """

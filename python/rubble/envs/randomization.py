@@ -132,7 +132,7 @@ class _Part:
     """Keys that belong together; each is checked when the part is made."""
 
     def __post_init__(self) -> None:
-        for one in fields(self):
+        for one in fields(self):  # type: ignore[arg-type]  # its classes are dataclasses
             self._check(f"{type(self).__name__.lower()}.{one.name}", getattr(self, one.name), one.metadata)
 
     @staticmethod
@@ -144,7 +144,7 @@ class _Part:
         if isinstance(value, Choice):
             values = value.values
         elif not names and isinstance(value, _Distribution):
-            values = value.limits()
+            values = value.limits()  # type: ignore[attr-defined]
         else:
             values = (value,)
         if not all(isinstance(v, str) if names else _is_number(v) for v in values):
@@ -239,7 +239,8 @@ class Drawn:
         if randomization is not None and not isinstance(randomization, Randomization):
             raise mistake("randomization", f"expected a rubble.envs.Randomization or None: found {randomization!r}")
         self._keys = {} if randomization is None else randomization.keys()
-        self._given, self.values, self._seed = randomization is not None, {}, 0
+        self.values: dict[str, Any] = {}
+        self._given, self._seed = randomization is not None, 0
         for key in self._keys:
             if key not in supported and key.partition(".")[0] + ".*" not in supported:
                 raise mistake(f"randomization.{key}", f"has no effect in {where}: expected only {', '.join(sorted(supported))}")

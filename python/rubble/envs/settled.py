@@ -1,19 +1,13 @@
 """Piles of missions that are texts. Environments of one process have each pile in common, as long as one of them uses it."""
-import tempfile
 import threading
 import weakref
+from typing import Any
 
 from .. import _core
+from ..mission_text import settle
 
 _lock = threading.Lock()
-_piles = weakref.WeakValueDictionary()
-
-
-def settle_text(mission, seed, threads, overrides=()):
-    with tempfile.NamedTemporaryFile("w", suffix=".lua") as script:
-        script.write(mission)
-        script.flush()
-        return _core.settle(script.name, seed, list(overrides), threads)
+_piles: "weakref.WeakValueDictionary[Any, SettledPile]" = weakref.WeakValueDictionary()
 
 
 class SettledPile:
@@ -42,5 +36,5 @@ def find_pile(mission, seed, threads, overrides=()):
     key = mission, seed, threads, tuple(overrides)
     with _lock:
         found = _piles.setdefault(key, SettledPile())
-    found.pile = found.once("pile", lambda: settle_text(mission, seed, threads, overrides))
+    found.pile = found.once("pile", lambda: settle(mission, seed, overrides, threads))
     return found

@@ -1,5 +1,7 @@
 """Env, VectorEnv, ParallelEnv, Box and Dict: those of gymnasium and pettingzoo where these are installed, else as much of
 them as an environment needs. Boxes also know units and names, which they print."""
+from typing import Any
+
 import numpy as np
 
 from .. import _core
@@ -24,8 +26,8 @@ except ImportError:
         sequence = np.random.SeedSequence(seed)
         return np.random.Generator(np.random.PCG64(sequence)), sequence.entropy
 
-    class Env:
-        metadata = {"render_modes": []}
+    class Env:  # type: ignore[no-redef,unused-ignore]
+        metadata: dict[str, Any] = {"render_modes": []}
         render_mode = None
         spec = None
 
@@ -55,10 +57,10 @@ except ImportError:
         def __exit__(self, *_):
             self.close()
 
-    class AutoresetMode:
+    class AutoresetMode:  # type: ignore[no-redef,unused-ignore]
         NEXT_STEP = "NextStep"
 
-    class VectorEnv:
+    class VectorEnv:  # type: ignore[no-redef,unused-ignore]
         closed = False
 
         def close(self, **more):
@@ -70,12 +72,12 @@ except ImportError:
         def unwrapped(self):
             return self
 
-    def batch_space(space, count):
+    def batch_space(space, count):  # type: ignore[misc,unused-ignore]
         if isinstance(space, Dict):
             return Dict({name: batch_space(one, count) for name, one in space.spaces.items()})
         return Box(space.low, space.high, (count, *space.shape), space.dtype)
 
-    class _Box:
+    class _Box:  # type: ignore[no-redef,unused-ignore]
         """An array within limits."""
 
         def __init__(self, low, high, shape, dtype=np.float32):
@@ -95,7 +97,7 @@ except ImportError:
             return (value.shape == self.shape and np.can_cast(value.dtype, self.dtype)
                     and bool(np.all(value >= self.low) and np.all(value <= self.high)))
 
-    class Dict:
+    class Dict:  # type: ignore[no-redef,unused-ignore]
         """Spaces by name."""
 
         def __init__(self, spaces):
@@ -111,10 +113,10 @@ except ImportError:
             return value.keys() == self.spaces.keys() and all(s.contains(value[k]) for k, s in self.spaces.items())
 
 try:
-    from pettingzoo import ParallelEnv
+    from pettingzoo import ParallelEnv  # type: ignore[import-not-found,unused-ignore]
 except ImportError:
 
-    class ParallelEnv:
+    class ParallelEnv:  # type: ignore[no-redef,unused-ignore]
         @property
         def num_agents(self):
             return len(self.agents)

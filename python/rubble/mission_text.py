@@ -1,0 +1,144 @@
+"""What the classes of missions.py have in common: the text of a mission, in Lua, and the way back."""
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+import os
+import re
+import tempfile
+from contextlib import contextmanager
+from typing import Any, ClassVar, Iterator, Mapping, Optional, Sequence, Type, TypeVar, Union
+
+from . import _core
+
+_Table = TypeVar("_Table", bound="Keys")
+_WORDS = frozenset("and break do else elseif end false for function goto if in local nil not or repeat return then true until "
+                   "while".split())
+
+
+def _mistake(key: str, message: str, expected: str) -> _core.InputError:
+    error = _core.InputError(f"{key}: {message}: expected {expected}")
+    error.key = key
+    error.diagnostics = [{"file": "", "line": 0, "key": key, "message": message, "expected": expected, "found": "", "hint": ""}]
+    return error
+
+
+def _lua_text(text: str) -> str:
+    escaped = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\0": "\\0"}
+    return '"' + "".join(escaped.get(c, c) for c in text) + '"'
+
+
+def _lua_key(key: str) -> str:
+    return key if re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", key) and key not in _WORDS else f"[{_lua_text(key)}]"
+
+
+def _lua(value: Any, key: str, indent: str) -> str:
+    """The value in Lua; key: its place in the mission."""
+    if hasattr(value, "tolist"):  # of numpy
+        value = value.tolist()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return _lua_text(value)
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        if not math.isfinite(value):
+            raise _mistake(key, f"{value} is not a finite number", "a finite number")
+        return repr(value)
+    if isinstance(value, Keys):
+        value = value.given()
+    deeper = indent + "  "
+    if isinstance(value, Mapping):
+        rows = [f"{_lua_key(str(name))} = {_lua(one, f'{key}.{name}' if key else str(name), deeper)}" for name, one in value.items()]
+    elif isinstance(value, Sequence) or hasattr(value, "__iter__"):
+        rows = [_lua(one, f"{key}[{i + 1}]", deeper) for i, one in enumerate(value)]
+    else:
+        raise _mistake(key, f"a {type(value).__name__} is no value of a mission", "a number, text, truth value, list, table or class of rubble.missions")
+    short = "{ " + ", ".join(rows) + " }" if rows else "{}"
+    if len(indent) + len(short) < 100 and "\n" not in short:
+        return short
+    return "{\n" + "".join(f"{deeper}{row},\n" for row in rows) + indent + "}"
+
+
+class Keys:
+    """A table of a mission. A key that is None is not given."""
+    _parts: ClassVar[dict[str, tuple[str, Type["Keys"]]]] = {}
+
+    def given(self) -> dict[str, Any]:
+        """The keys that are given, by their names in Lua."""
+        rows = ((f.name, getattr(self, f.name)) for f in dataclasses.fields(self))  # type: ignore[arg-type]
+        return {name.rstrip("_"): value for name, value in rows if value is not None}
+
+    @classmethod
+    def from_dict(cls: Type[_Table], table: Mapping[str, Any]) -> _Table:
+        """From a table as JSON has it. Raises InputError for a key that missions do not have."""
+        known = {f.name.rstrip("_"): f.name for f in dataclasses.fields(cls)}  # type: ignore[arg-type]
+        values = {}
+        for key, value in table.items():
+            if key not in known:
+                raise _mistake(key, f"{cls.__name__} has no such key", "one of " + ", ".join(known))
+            how, part = cls._parts.get(known[key], ("", Keys))
+            if how == "list" and isinstance(value, list):
+                value = [part.from_dict(one) if isinstance(one, dict) else one for one in value]
+            elif how == "map" and isinstance(value, dict):
+                value = {name: part.from_dict(one) if isinstance(one, dict) else one for name, one in value.items()}
+            elif how == "one" and isinstance(value, dict):
+                value = part.from_dict(value)
+            values[known[key]] = value
+        return cls(**values)
+
+
+class MissionText(Keys):
+    """What a mission can do besides holding its keys."""
+
+    def to_lua(self) -> str:
+        """The script of the mission, as Lua."""
+        return "return rubble.mission " + _lua(self, "", "") + "\n"
+
+    def check(self, overrides: Sequence[str] = ()) -> dict[str, Any]:
+        """The complete scenario, with all defaults, as `rubble check` prints it. Raises InputError with all mistakes."""
+        with script_of(self) as path:
+            return json.loads(_core.check_mission(path, None, list(overrides)))
+
+    @classmethod
+    def load(cls: Type[_Table], script: Union[str, "os.PathLike[str]"], overrides: Sequence[str] = ()) -> _Table:
+        """The mission of a script: a file, or the text of one. All of its keys are given, also those that had their defaults."""
+        with script_of(script) as path:
+            return cls.from_dict(_without_none(json.loads(_core.check_mission(path, None, list(overrides)))))
+
+
+def _without_none(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _without_none(one) for key, one in value.items() if one is not None}
+    return [_without_none(one) for one in value] if isinstance(value, list) else value
+
+
+@contextmanager
+def started_with(mission: Union[MissionText, str, "os.PathLike[str]"]) -> Iterator[tuple[Optional[str], str]]:
+    """(working folder, script) for the program: of a file itself; of a text a temporary mission.lua, by its name alone, so that
+    the provenance of equal texts is equal."""
+    text = mission.to_lua() if isinstance(mission, MissionText) else os.fspath(mission)
+    if not isinstance(mission, MissionText) and "\n" not in text and "rubble.mission" not in text:
+        yield None, text
+        return
+    with tempfile.TemporaryDirectory(prefix="rubble_mission_") as folder:
+        with open(os.path.join(folder, "mission.lua"), "w", encoding="utf-8") as file:
+            file.write(text)
+        yield folder, "mission.lua"
+
+
+@contextmanager
+def script_of(mission: Union[MissionText, str, "os.PathLike[str]"]) -> Iterator[str]:
+    """The path of a script of the mission."""
+    with started_with(mission) as (folder, script):
+        yield os.path.join(folder or "", script)
+
+
+def settle(mission: Union[MissionText, str, "os.PathLike[str]"], seed: Optional[int] = None, overrides: Sequence[str] = (),
+           threads: int = 0) -> _core.Pile:
+    """Settles the pile of a mission: of an object, a file, or the text of a script. overrides: "key=value", as rubble run
+    --set. Files that a text names are looked for in its temporary folder: name them by whole paths."""
+    with script_of(mission) as script:
+        return _core.settle(script, seed, list(overrides), threads)

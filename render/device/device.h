@@ -1,0 +1,64 @@
+// What draws: the processor, with the same bits on every machine, or a graphics card. Renderers, sensors and programs know
+// this interface alone; render/devices has its implementations.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/colour/colour_pass.h"
+#include "render/geometry/ground_map.h"
+#include "render/geometry/scene_tables.h"
+#include "render/materials/textures.h"
+#include "render/passes/triangle_raster.h"
+
+namespace rubble {
+
+// For `rubble info` and the manifest.
+struct DeviceInfo {
+  std::string name;                                          // "software" or "gl"
+  std::string about;                                         // what it runs on, such as "AVX2"
+  std::vector<std::pair<std::string, std::string>> details;  // names and values, such as the driver's version
+  std::vector<std::pair<std::string, int>> limits;           // names and values of those that matter here
+};
+
+struct DeviceSceneOptions {
+  int threads = 1;
+  int shadow_side = 4096;       // of a shadow map at most; unit: texel
+  bool shades = true;           // false: colours are not asked for
+  std::string instruction_set;  // as RenderOptions
+};
+
+// A scene on a device, as it stands at the moment of the last move().
+class DeviceScene {
+ public:
+  virtual ~DeviceScene() = default;
+
+  virtual const TriangleNames& names() const = 0;
+  virtual TriangleRaster& raster() = 0;
+  // Of the lights. Valid until the next move(); not to be asked of a device that does not shade.
+  virtual const ShadowViews& shadows() const = 0;
+  // Pieces and carried lights have moved in the scene and the lights that it was made of.
+  virtual void move() = 0;
+  // The light of an image, which stays where it is. changed: where it differs from what was given before; null: anywhere.
+  virtual void set_light(const std::vector<BakedLight>& light, const std::vector<LightRange>* changed) = 0;
+  // What it refers to must outlive it, and this must. light: without what depends on the view.
+  virtual std::unique_ptr<ColourPass> make_colour_pass(const FrameLight& light, const GroundMap& ground,
+                                                       const std::vector<PatternImage>& patterns, ThreadPool& pool) = 0;
+};
+
+class Device {
+ public:
+  virtual ~Device() = default;
+
+  virtual const DeviceInfo& info() const = 0;
+  // One thread at a time may use a device and what it made; this moves it to the calling one.
+  virtual void make_current() {}
+
+  // The scene and the lights must outlive it. light: at all nodes, at first.
+  virtual std::unique_ptr<DeviceScene> load(const PreparedScene& scene, const LightSet& lights,
+                                            const std::vector<BakedLight>& light, const DeviceSceneOptions& options) = 0;
+};
+
+}  // namespace rubble

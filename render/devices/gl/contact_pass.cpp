@@ -1,0 +1,89 @@
+#include "render/devices/gl/contact_pass.h"
+
+#include <algorithm>
+
+#include "render/gl/shader.h"
+
+namespace rubble {
+
+namespace {
+
+ShaderDefines defines_for(bool lamp) {
+  if (!lamp) return {};
+  return {{"LAMP", ""}, {"LAMP_STEPS", "8"}};
+}
+
+}  // namespace
+
+ContactPass::ContactPass(const Gl& gl)
+    : gl_(gl),
+      blur_(make_program(gl, "fullscreen.vert.glsl", "contact_blur.frag.glsl")),
+      block_(gl),
+      empty_array_(gl) {
+  bind_samplers(gl, blur_, {{"contact", 0}});
+}
+
+const GlProgram& ContactPass::program(bool lamp) {
+  GlProgram& wanted = programs_[lamp];
+  if (!wanted) {
+    wanted = make_program(gl_, "fullscreen.vert.glsl", "contact.frag.glsl", defines_for(lamp));
+    bind_samplers(gl_, wanted, {{"depth_values", 0}});
+    gl_.UniformBlockBinding(wanted.name(), gl_.GetUniformBlockIndex(wanted.name(), "Contact"), 0);
+  }
+  return wanted;
+}
+
+void ContactPass::resize(int width, int height) {
+  if (width == width_ && height == height_) return;
+  width_ = width, height_ = height;
+  const auto make = [&](GlTexture& texture, GlFramebuffer& target) {
+    texture = make_target(gl_, GL_RG8, width, height);
+    gl_.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl_.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    target = GlFramebuffer(gl_);
+    gl_.NamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
+  };
+  make(raw_, raw_target_);
+  make(openness_, target_);
+  check_gl(gl_, "making the contact buffer");
+}
+
+void ContactPass::draw(const ViewProjection& view, const GlTexture& depth, const ContactLamp& lamp,
+                       int first_row, int last_row) {
+  const Intrinsics& k = view.intrinsics;
+  resize(std::max(1, (k.width + 1) / 2), std::max(1, (k.height + 1) / 2));
+  const float block[12] = {kContactReach * float(std::max(k.fx, k.fy)),
+                           kContactReach,
+                           1 / kNearPlane,
+                           kNearPlane,
+                           float(k.fx),
+                           float(k.fy),
+                           float(k.cx),
+                           float(k.cy),
+                           lamp.place.x,
+                           lamp.place.y,
+                           lamp.place.z,
+                           lamp.radius};
+  gl_.NamedBufferData(block_.name(), sizeof block, block, GL_STREAM_DRAW);
+  gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_.name());
+  gl_.Viewport(0, 0, width_, height_);
+  gl_.Disable(GL_DEPTH_TEST);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.BindVertexArray(empty_array_.name());
+  gl_.Enable(GL_SCISSOR_TEST);
+  const auto run = [&](const GlProgram& program, const GlTexture& source,
+                       const GlFramebuffer& target, int margin) {
+    const int first = std::max(0, first_row / 2 - margin);
+    gl_.Scissor(0, first, width_, std::min(height_, (last_row + 1) / 2 + margin) - first);
+    gl_.BindTextureUnit(0, source.name());
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
+    gl_.UseProgram(program.name());
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  };
+  // The mean takes in two texels on either side, and what reads it one more.
+  run(program(lamp.on), depth, raw_target_, 4);
+  run(blur_, raw_, target_, 1);
+  gl_.Disable(GL_SCISSOR_TEST);
+}
+
+}  // namespace rubble

@@ -1,0 +1,35 @@
+// Contact darkness and shadows of the lamp from the depth image, at half its size: see
+// shaders/contact.frag.glsl.
+#pragma once
+
+#include "render/camera/projection.h"
+#include "render/colour/view_lamp.h"
+#include "render/gl/gl_objects.h"
+
+namespace rubble {
+
+class ContactPass {
+ public:
+  explicit ContactPass(const Gl& gl);
+
+  // depth: near / Z, of the view's size. Only the rows [first_row, last_row) of the view are
+  // wanted.
+  void draw(const ViewProjection& view, const GlTexture& depth, const ContactLamp& lamp, int first_row,
+            int last_row);
+  // 1: open, 0: closed in; and the lamp: 1: in sight, 0: hidden, undefined if it is not on.
+  const GlTexture& openness() const { return openness_; }
+
+ private:
+  const GlProgram& program(bool lamp);
+  void resize(int width, int height);
+
+  const Gl& gl_;
+  GlProgram programs_[2], blur_;  // without and with a lamp; made when first needed
+  GlBuffer block_;
+  GlVertexArray empty_array_;
+  GlTexture raw_, openness_;
+  GlFramebuffer raw_target_, target_;
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace rubble

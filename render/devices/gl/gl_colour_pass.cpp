@@ -1,0 +1,420 @@
+#include "render/devices/gl/gl_colour_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "kernel/base/error.h"
+#include "render/colour/frame_fill.h"
+#include "render/colour/view_lamp.h"
+#include "render/gl/shader.h"
+#include "render/materials/glass.h"
+#include "render/materials/surface_appearance.h"
+#include "render/passes/ray_pass.h"
+
+namespace rubble {
+
+namespace {
+
+ShaderDefines variant_of(const FrameLight& frame, const GlGeometry& geometry) {
+  const auto& lights = frame.lights->lights;
+  ShaderDefines defines = {{"LIGHT_COUNT", std::to_string(lights.size())}};
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const ShadowViews::Light& shadow = frame.shadow->lights[i];
+    defines.push_back({"LIGHT_" + std::to_string(i), std::to_string(int(lights[i].type)) + ", " +
+                                                         std::to_string(shadow.first_view) + ", " +
+                                                         std::to_string(shadow.views)});
+  }
+  defines.push_back({"SOIL", std::to_string(int(Pattern::soil)) + ".0"});
+  if (!frame.clear_air) defines.push_back({"AIR", ""});
+  defines.push_back({"AIR_STEPS", std::to_string(AirVolume::kSlices - 1) + ".0"});
+  if (frame.wetness > 0) defines.push_back({"WET", ""});
+  if (frame.glows) defines.push_back({"GLOW", ""});
+  if (frame.surrounded) defines.push_back({"SURROUNDED", ""});
+  if (frame.glass) {
+    const auto& clear = kGlassLog2Clear;
+    defines.push_back({"GLASS", std::to_string(glass_appearance())});
+    defines.push_back({"GLASS_INDEX", std::to_string(kGlassIndex)});
+    defines.push_back({"GLASS_CLEAR", "vec3(" + std::to_string(clear[0]) + ", " + std::to_string(clear[1]) + ", " +
+                                          std::to_string(clear[2]) + ")"});
+    defines.push_back({"GLASS_DUST", std::to_string(kGlassDust)});
+    defines.push_back({"HAZE_LEAST", std::to_string(kHazeLeast)});
+    defines.push_back({"HAZE_MORE", std::to_string(kHazeMore)});
+  }
+  if (geometry.tables.paint_count > 0) {
+    defines.push_back({"PAINTS", std::to_string(geometry.tables.paint_count)});
+    defines.push_back({"PAINTED", std::to_string(find_surface_appearance(kPaintedAppearance))});
+    defines.push_back({"PAINT_SIDE", std::to_string(geometry.tables.paint_side) + ".0"});
+  }
+  return defines;
+}
+
+GlTexture upload_surface_appearances(const Gl& gl, const std::vector<PatternImage>& patterns) {
+  const int size = patterns.front().size;
+  GlTexture texture(gl, GLenum(GL_TEXTURE_2D_ARRAY));
+  const int levels = int(std::lround(std::log2(size))) + 1;
+  gl.TextureStorage3D(texture.name(), levels, GL_RGBA8, size, size, GLsizei(patterns.size()));
+  for (std::size_t i = 0; i < patterns.size(); ++i)
+    gl.TextureSubImage3D(texture.name(), 0, 0, 0, GLint(i), size, size, 1, GL_RGBA,
+                         GL_UNSIGNED_BYTE, patterns[i].texels.data());
+  gl.GenerateTextureMipmap(texture.name());
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  check_gl(gl, "uploading the textures");
+  return texture;
+}
+
+GlTexture upload_sky(const Gl& gl, const Sky& sky) {
+  GlTexture texture = make_target(gl, GL_RGB32F, sky.side, sky.side);
+  gl.TextureSubImage2D(texture.name(), 0, 0, 0, sky.side, sky.side, GL_RGB, GL_FLOAT,
+                       sky.map.data());
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  check_gl(gl, "uploading the sky");
+  return texture;
+}
+
+GlTexture upload_ground(const Gl& gl, const GroundMap& ground) {
+  GlTexture texture = make_target(gl, GL_RG8, GroundMap::kSide, GroundMap::kSide);
+  gl.TextureSubImage2D(texture.name(), 0, 0, 0, GroundMap::kSide, GroundMap::kSide, GL_RG,
+                       GL_UNSIGNED_BYTE, ground.texels.data());
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  check_gl(gl, "uploading the map of the ground");
+  return texture;
+}
+
+GlTexture make_air_table(const Gl& gl) {
+  GlTexture texture(gl, GLenum(GL_TEXTURE_3D));
+  const GLuint name = texture.name();
+  gl.TextureStorage3D(name, 1, GL_RGBA32F, AirVolume::kColumns, AirVolume::kRows,
+                      AirVolume::kSlices);
+  gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  for (const GLenum side : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+    gl.TextureParameteri(name, side, GL_CLAMP_TO_EDGE);
+  check_gl(gl, "making the table of the air");
+  return texture;
+}
+
+enum Unit {
+  kVisibility,
+  kDepth,
+  kVertices,
+  kTriangles,
+  kPlaced,
+  kLight,
+  kSurfaceAppearances,
+  kShadow,
+  kContact,
+  kSky,
+  kAir,
+  kGround,
+  kLensRays,
+  kRowPoses,
+  kPaint,
+  kPaintImages,
+  kShadowValues,
+  kShadowEdges,
+  kSunNumbers,
+  kSunShares,
+  kSunBlocks,
+  kBehindUnit
+};
+
+GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
+  GlProgram program = make_program(gl, "fullscreen.vert.glsl", "resolve.frag.glsl", defines);
+  bind_samplers(gl, program,
+                {{"visibility", kVisibility},
+                 {"depth_values", kDepth},
+                 {"vertex_table", kVertices},
+                 {"triangle_table", kTriangles},
+                 {"placed_table", kPlaced},
+                 {"light_table", kLight},
+                 {"look_textures", kSurfaceAppearances},
+                 {"shadow_map", kShadow},
+                 {"openness", kContact},
+                 {"sky_map", kSky},
+                 {"air_table", kAir},
+                 {"ground_map", kGround},
+                 {"lens_rays", kLensRays},
+                 {"row_poses", kRowPoses},
+                 {"paint_table", kPaint},
+                 {"paint_images", kPaintImages},
+                 {"sun_numbers", kSunNumbers},
+                 {"sun_shares", kSunShares},
+                 {"behind", kBehindUnit}});
+  gl.UniformBlockBinding(program.name(), gl.GetUniformBlockIndex(program.name(), "Frame"), 0);
+  return program;
+}
+
+}  // namespace
+
+GlColourPass::GlColourPass(const Gl& gl, const GlGeometry& geometry, const GlRaster& raster,
+                           const GlShadowPass& shadows, const FrameLight& light, const GroundMap& ground,
+                           const std::vector<PatternImage>& patterns, ThreadPool& pool)
+    : gl_(gl),
+      geometry_(geometry),
+      raster_(raster),
+      shadows_(shadows),
+      pool_(pool),
+      frame_block_(gl),
+      empty_array_(gl),
+      contact_(gl),
+      looks_(upload_surface_appearances(gl, patterns)),
+      sky_map_(upload_sky(gl, light.lights->sky)),
+      air_table_(make_air_table(gl)),
+      ground_map_(upload_ground(gl, ground)),
+      ground_(ground),
+      texture_size_(patterns.front().size) {
+  defines_ = variant_of(light, geometry);
+  if (shadows.edges())
+    sun_ = std::make_unique<SunShadowPass>(gl, light.shadow->lights.front().views,
+                                           SunShadowPass::Samplers{{"visibility", kVisibility},
+                                                                   {"depth_values", kDepth},
+                                                                   {"vertex_table", kVertices},
+                                                                   {"triangle_table", kTriangles},
+                                                                   {"placed_table", kPlaced},
+                                                                   {"lens_rays", kLensRays},
+                                                                   {"row_poses", kRowPoses},
+                                                                   {"shadow_map", kShadow},
+                                                                   {"shadow_values", kShadowValues},
+                                                                   {"shadow_edges", kShadowEdges}},
+                                           kSunBlocks);
+}
+
+const GlProgram& GlColourPass::program(int variant, TileContent content) {
+  GlProgram& wanted = programs_[variant][int(content)];
+  if (!wanted) {
+    ShaderDefines defines = defines_;
+    if (variant & kLinear) defines.push_back({"LINEAR", ""});
+    if (variant & kRays) defines.push_back({"RAYS", ""});
+    if (variant & kLamp) defines.push_back({"LAMP", ""});
+    if (variant & kMeter) defines.push_back({"METER", ""});
+    if (variant & kSoftSun) defines.push_back({"SOFT_SUN", ""});
+    if (variant & kBehind) defines.push_back({"BEHIND", ""});
+    defines.push_back({"CONTENT", std::to_string(int(content))});
+    defines.push_back({"VEIL_FROM", std::to_string(kVeilFrom)});
+    wanted = make_resolve_program(gl_, defines);
+  }
+  return wanted;
+}
+
+void GlColourPass::resize(int width, int height) {
+  if (width == width_ && height == height_) return;
+  width_ = width, height_ = height;
+  colour_ = make_target(gl_, GL_RGBA8, width, height);
+  target_ = GlFramebuffer(gl_);
+  gl_.NamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, colour_.name(), 0);
+  check_gl(gl_, "making the colour buffer");
+}
+
+void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const ViewProjection& view,
+                             const Pose& world_from_camera, const SurfaceImages& surfaces,
+                             const FrameLight& light, float exposure, bool anew,
+                             const GlassLayer* layer) {
+  if (anew) tiles_ = tiles_of(view, surfaces);
+  const bool all_light = variant & (kLinear | kMeter);
+  const ViewLamp place = find_view_lamp(view, world_from_camera, light);
+  const bool lamp = has_lamp(light) &&
+                    (all_light || lamp_shows(light, place.offset, tiles_.nearest_value, exposure));
+  if (lamp) variant |= kLamp;
+  if (anew) hand_over(view, surfaces);
+  const GlTexture& ids = surfaces.in_raster ? raster_.id_texture() : ids_;
+  const GlTexture& depth = surfaces.in_raster ? raster_.depth_texture() : depth_;
+  if (anew)
+    contact_.draw(view, depth, place.contact(lamp, light), tiles_.first_row,
+                  tiles_.last_row);
+  if (anew && light.air_table)
+    gl_.TextureSubImage3D(air_table_.name(), 0, 0, 0, 0, AirVolume::kColumns, AirVolume::kRows,
+                          AirVolume::kSlices, GL_RGBA, GL_FLOAT, light.air_table->table().data());
+  const FrameBlock block =
+      fill_frame_block(view, light, place.bearer, ground_, texture_size_, exposure);
+  gl_.NamedBufferData(frame_block_.name(), sizeof block, &block, GL_STREAM_DRAW);
+  gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
+  const GLuint textures[] = {ids.name(),
+                             depth.name(),
+                             geometry_.vertices_view.name(),
+                             geometry_.triangles_view.name(),
+                             geometry_.placed_view.name(),
+                             geometry_.light_view.name(),
+                             looks_.name(),
+                             shadows_.depth().name(),
+                             contact_.openness().name(),
+                             sky_map_.name(),
+                             air_table_.name(),
+                             ground_map_.name()};
+  for (GLuint unit = 0; unit < sizeof textures / sizeof textures[0]; ++unit)
+    gl_.BindTextureUnit(unit, textures[unit]);
+  if (surfaces.has_rays()) {
+    gl_.BindTextureUnit(kLensRays, lens_rays_.name());
+    gl_.BindTextureUnit(kRowPoses, row_poses_.name());
+    variant |= kRays;
+  }
+  if (geometry_.tables.paint_count > 0) {
+    gl_.BindTextureUnit(kPaint, geometry_.paint_view.name());
+    gl_.BindTextureUnit(kPaintImages, geometry_.paint_images.name());
+  }
+  if (shown_behind_) {
+    gl_.BindTextureUnit(kBehindUnit, shown_behind_->name());
+    variant |= kBehind;
+  }
+  // What the exposure is found by needs no smooth shadows.
+  if (sun_ && light.soft_sun && !(variant & kMeter) && draw_sun(view, surfaces, light))
+    variant |= kSoftSun;
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
+  const int every = variant & kMeter ? kMeterEvery : 1;
+  gl_.Viewport(0, 0, (view.intrinsics.width + every - 1) / every,
+               (view.intrinsics.height + every - 1) / every);
+  gl_.Disable(GL_DEPTH_TEST);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.BindVertexArray(empty_array_.name());
+  draw_tiles(variant, tiles_, every, layer);
+}
+
+// The images of the surfaces, where they are not on the card.
+void GlColourPass::hand_over(const ViewProjection& view, const SurfaceImages& surfaces) {
+  const int width = view.intrinsics.width, height = view.intrinsics.height;
+  if (width != given_width_ || height != given_height_) {
+    given_width_ = width, given_height_ = height;
+    ids_ = GlTexture(), depth_ = GlTexture(), lens_rays_ = GlTexture();
+  }
+  if (!surfaces.in_raster) {
+    if (!ids_) ids_ = make_target(gl_, GL_RG32UI, width, height), depth_ = make_target(gl_, GL_R32F, width, height);
+    gl_.TextureSubImage2D(ids_.name(), 0, 0, 0, width, height, GL_RG_INTEGER, GL_UNSIGNED_INT, surfaces.ids);
+    gl_.TextureSubImage2D(depth_.name(), 0, 0, 0, width, height, GL_RED, GL_FLOAT, surfaces.depth_values.data());
+  }
+  if (surfaces.has_rays()) {
+    if (!lens_rays_) {
+      lens_rays_ = make_target(gl_, GL_RGBA32F, width, height), row_poses_ = make_target(gl_, GL_RGBA32F, 3, height);
+      lens_ = surfaces.lens - 1;
+    }
+    if (lens_ != surfaces.lens)
+      gl_.TextureSubImage2D(lens_rays_.name(), 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, surfaces.ray_values);
+    lens_ = surfaces.lens;
+    gl_.TextureSubImage2D(row_poses_.name(), 0, 0, 0, 3, height, GL_RGBA, GL_FLOAT, surfaces.pose_values);
+  }
+  check_gl(gl_, "handing over the surfaces of a view");
+}
+
+// From the farthest on: a layer shows the one behind it. Leaves the outermost to be shown.
+void GlColourPass::draw_behind(const ViewProjection& view, const Pose& world_from_camera,
+                               const SurfaceImages& surfaces, const FrameLight& light) {
+  shown_behind_ = nullptr;
+  if (!surfaces.through_glass()) return;
+  const int width = view.intrinsics.width, height = view.intrinsics.height;
+  behind_.clear();
+  behind_.resize(surfaces.behind->size());
+  for (std::size_t k = behind_.size(); k-- > 0;) {
+    const GlassLayer& layer = (*surfaces.behind)[k];
+    Behind& out = behind_[k];
+    out.colour = make_target(gl_, GL_RGBA32F, width, height);
+    out.target = GlFramebuffer(gl_);
+    gl_.NamedFramebufferTexture(out.target.name(), GL_COLOR_ATTACHMENT0, out.colour.name(), 0);
+    SurfaceImages images{layer.ids.data(), layer.depth_values};
+    images.ray_values = surfaces.ray_values, images.pose_values = surfaces.pose_values, images.lens = surfaces.lens;
+    draw_with(kLinear, out.target, view, world_from_camera, images, light, 1, true, &layer);
+    shown_behind_ = &out.colour;
+  }
+  check_gl(gl_, "drawing what is behind glass");
+}
+
+// True where there are edges of its shadows.
+bool GlColourPass::draw_sun(const ViewProjection& view, const SurfaceImages& surfaces,
+                            const FrameLight& light) {
+  const Intrinsics& k = view.intrinsics;
+  const std::vector<EdgeBlock> blocks = find_edge_blocks(
+      surfaces.has_rays() ? nullptr : &view, {surfaces.depth_values, k.width, k.height},
+      light.shadow->edge_layers(shadows_.edges()->pyramids()), Vec3(light.lights->lights.front().axis) * -1.0, pool_);
+  if (blocks.empty()) return false;
+  sun_->set_blocks(blocks, k.width, k.height);
+  gl_.BindTextureUnit(kShadowValues, shadows_.values().name());
+  gl_.BindTextureUnit(kShadowEdges, shadows_.edges()->edges().name());
+  sun_->draw(surfaces.has_rays());
+  gl_.BindTextureUnit(kSunNumbers, sun_->numbers().name());
+  gl_.BindTextureUnit(kSunShares, sun_->shares().name());
+  return true;
+}
+
+ImageTiles GlColourPass::tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const {
+  const Intrinsics& k = view.intrinsics;
+  // The longest ray that reaches unit depth.
+  const double x = std::max(k.cx + 0.5, k.width - k.cx) / k.fx;
+  const double y = std::max(k.cy + 0.5, k.height - k.cy) / k.fy;
+  const double longest =
+      surfaces.has_rays() ? 1 / double(RayPass::kLeastCosine) : std::sqrt(1 + x * x + y * y);
+  return cut_into_tiles(surfaces.depth_values, k.width, k.height,
+                        float(double(kNearPlane) * longest / kVeilFrom), pool_);
+}
+
+void GlColourPass::draw_tiles(int variant, const ImageTiles& tiles, int every, const GlassLayer* layer) {
+  // Of pixels `every` apart, the first at half of that: those before `end`.
+  const auto count = [every](int end) { return std::max(0, end + every - 1 - every / 2) / every; };
+  gl_.Enable(GL_SCISSOR_TEST);
+  const GlProgram* current = nullptr;
+  for (const TileRun& run : tiles.runs) {
+    if (layer && (run.x >= layer->x1 || run.x + run.width <= layer->x0 || run.y >= layer->y1 ||
+                  run.y + run.height <= layer->y0))
+      continue;
+    const GlProgram& wanted = program(variant, run.content);
+    if (current != &wanted) gl_.UseProgram(wanted.name());
+    current = &wanted;
+    const int x = count(run.x), y = count(run.y);
+    gl_.Scissor(x, y, count(run.x + run.width) - x, count(run.y + run.height) - y);
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  gl_.Disable(GL_SCISSOR_TEST);
+}
+
+MeteredImage GlColourPass::meter(const ViewProjection& view, const Pose& world_from_camera,
+                                 const SurfaceImages& surfaces, const FrameLight& light) {
+  const auto count = [](int pixels) { return (pixels + kMeterEvery / 2 - 1) / kMeterEvery; };
+  MeteredImage out;
+  out.width = count(view.intrinsics.width), out.height = count(view.intrinsics.height);
+  const GlTexture texture =
+      make_target(gl_, GL_R32F, std::max(1, out.width), std::max(1, out.height));
+  const GlFramebuffer target(gl_);
+  gl_.NamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
+  draw_behind(view, world_from_camera, surfaces, light);
+  draw_with(kMeter, target, view, world_from_camera, surfaces, light, 1);
+  out.stops.resize(std::size_t(out.width) * std::size_t(out.height));
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target.name());
+  gl_.ReadPixels(0, 0, out.width, out.height, GL_RED, GL_FLOAT, out.stops.data());
+  check_gl(gl_, "metering the image");
+  return out;
+}
+
+void GlColourPass::draw(const ViewProjection& view, const Pose& world_from_camera,
+                        const SurfaceImages& surfaces, const FrameLight& light, float exposure,
+                        bool metered) {
+  resize(view.intrinsics.width, view.intrinsics.height);
+  if (!metered) draw_behind(view, world_from_camera, surfaces, light);
+  draw_with(0, target_, view, world_from_camera, surfaces, light, exposure, !metered);
+  gl_.Finish();  // so that times are of what they are said to be
+}
+
+void GlColourPass::read(std::vector<std::uint8_t>& rgba) {
+  rgba.resize(std::size_t(width_) * std::size_t(height_) * 4);
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
+  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  check_gl(gl_, "reading the image back");
+}
+
+std::vector<float> GlColourPass::draw_linear(const ViewProjection& view,
+                                             const Pose& world_from_camera,
+                                             const SurfaceImages& surfaces,
+                                             const FrameLight& light) {
+  const int width = view.intrinsics.width, height = view.intrinsics.height;
+  const GlTexture texture = make_target(gl_, GL_RGBA32F, width, height);
+  const GlFramebuffer target(gl_);
+  gl_.NamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
+  draw_behind(view, world_from_camera, surfaces, light);
+  draw_with(kLinear, target, view, world_from_camera, surfaces, light, 1);
+  std::vector<float> out(std::size_t(width) * std::size_t(height) * 4);
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target.name());
+  gl_.ReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, out.data());
+  check_gl(gl_, "reading the linear image back");
+  return out;
+}
+
+}  // namespace rubble

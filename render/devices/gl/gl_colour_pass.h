@@ -1,0 +1,84 @@
+// ColourPass by the graphics device, see shaders/resolve.frag.glsl.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "render/colour/colour_pass.h"
+#include "render/devices/gl/contact_pass.h"
+#include "render/devices/gl/gl_raster.h"
+#include "render/devices/gl/gl_shadow_pass.h"
+#include "render/devices/gl/image_tiles.h"
+#include "render/devices/gl/sun_shadow_pass.h"
+#include "render/geometry/ground_map.h"
+#include "render/gl/shader.h"
+#include "render/materials/textures.h"
+
+namespace rubble {
+
+class GlColourPass : public ColourPass {
+ public:
+  // What they refer to must outlive it.
+  GlColourPass(const Gl& gl, const GlGeometry& geometry, const GlRaster& raster, const GlShadowPass& shadows,
+               const FrameLight& light, const GroundMap& ground, const std::vector<PatternImage>& patterns,
+               ThreadPool& pool);
+
+  MeteredImage meter(const ViewProjection& view, const Pose& world_from_camera,
+                     const SurfaceImages& surfaces, const FrameLight& light) override;
+  void draw(const ViewProjection& view, const Pose& world_from_camera,
+            const SurfaceImages& surfaces, const FrameLight& light, float exposure,
+            bool metered) override;
+  void read(std::vector<std::uint8_t>& rgba) override;
+  std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
+                                 const SurfaceImages& surfaces, const FrameLight& light) override;
+
+ private:
+  // What is drawn behind glass, as a view by itself: see GlassLayer.
+  struct Behind {
+    GlTexture colour;
+    GlFramebuffer target;
+  };
+  void resize(int width, int height);
+  void hand_over(const ViewProjection& view, const SurfaceImages& surfaces);
+  void draw_behind(const ViewProjection& view, const Pose& world_from_camera, const SurfaceImages& surfaces,
+                   const FrameLight& light);
+  // anew: not as the time before, so what is found from the surfaces and the light is not there yet.
+  void draw_with(int variant, const GlFramebuffer& target, const ViewProjection& view,
+                 const Pose& world_from_camera, const SurfaceImages& surfaces,
+                 const FrameLight& light, float exposure, bool anew = true,
+                 const GlassLayer* layer = nullptr);  // layer: that alone is drawn
+
+  const Gl& gl_;
+  const GlGeometry& geometry_;
+  const GlRaster& raster_;
+  const GlShadowPass& shadows_;
+  ThreadPool& pool_;
+  enum Variant { kLinear = 1, kRays = 2, kLamp = 4, kMeter = 8, kSoftSun = 16, kBehind = 32 };
+  const GlProgram& program(int variant, TileContent content);  // made when it is first needed
+  ImageTiles tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const;
+  bool draw_sun(const ViewProjection& view, const SurfaceImages& surfaces, const FrameLight& light);
+  void draw_tiles(int variant, const ImageTiles& tiles, int every,  // n-th pixel
+                  const GlassLayer* layer);
+
+  ShaderDefines defines_;
+  GlProgram programs_[64][4];  // by Variant and TileContent
+  GlBuffer frame_block_;
+  GlVertexArray empty_array_;
+  ContactPass contact_;
+  std::unique_ptr<SunShadowPass> sun_;  // null: the main light is no sun
+  GlTexture looks_, sky_map_, air_table_, ground_map_;
+  GlTexture ids_, depth_, lens_rays_, row_poses_;  // of what was drawn last; the first two unless they are in the raster
+  int given_width_ = 0, given_height_ = 0;         // of these
+  std::uint64_t lens_ = 0;                         // of lens_rays_
+  const GroundMap& ground_;
+  ImageTiles tiles_;  // of what was drawn last
+  std::vector<Behind> behind_;  // the outermost first
+  const GlTexture* shown_behind_ = nullptr;  // by what is drawn next; null: nothing
+  GlTexture colour_;
+  GlFramebuffer target_;
+  int width_ = 0, height_ = 0;
+  int texture_size_ = 1;
+};
+
+}  // namespace rubble

@@ -1,0 +1,64 @@
+#include "render/devices/gl/gl_device.h"
+
+#include "render/devices/gl/gl_colour_pass.h"
+#include "render/devices/gl/gl_raster.h"
+#include "render/devices/gl/gl_shadow_pass.h"
+
+namespace rubble {
+
+namespace {
+
+class GlScene : public DeviceScene {
+ public:
+  GlScene(GlContext& context, const PreparedScene& scene, const LightSet& lights, const std::vector<BakedLight>& light,
+          const DeviceSceneOptions& options)
+      : context_(context),
+        scene_(scene),
+        geometry_(context.gl(), scene, make_scene_tables(scene), light),
+        raster_(context.gl(), scene, geometry_) {
+    if (options.shades)
+      shadows_ = std::make_unique<GlShadowPass>(context.gl(), scene, geometry_, lights, options.shadow_side);
+  }
+
+  const TriangleNames& names() const override { return geometry_.tables.names; }
+  TriangleRaster& raster() override { return raster_; }
+  const ShadowViews& shadows() const override { return shadows_->views(); }
+  void move() override {
+    geometry_.place(scene_);
+    if (shadows_) shadows_->move();
+  }
+  void set_light(const std::vector<BakedLight>& light, const std::vector<LightRange>* changed) override {
+    geometry_.set_light(light, changed);
+  }
+  std::unique_ptr<ColourPass> make_colour_pass(const FrameLight& light, const GroundMap& ground,
+                                               const std::vector<PatternImage>& patterns, ThreadPool& pool) override {
+    return std::make_unique<GlColourPass>(context_.gl(), geometry_, raster_, *shadows_, light, ground, patterns, pool);
+  }
+
+ private:
+  GlContext& context_;
+  const PreparedScene& scene_;
+  GlGeometry geometry_;
+  GlRaster raster_;
+  std::unique_ptr<GlShadowPass> shadows_;  // null: colours are not asked for
+};
+
+}  // namespace
+
+GlDevice::GlDevice(const GlContextOptions& options) : context_(options) {
+  const GlInfo& gl = context_.info();
+  info_.name = "gl";
+  info_.about = gl.renderer;
+  info_.details = {{"gl_renderer", gl.renderer},
+                   {"gl_version", gl.version + " (" + gl.vendor + ")"},
+                   {"egl_device", gl.egl_device + ": " + gl.why},
+                   {"egl_version", gl.egl_version}};
+  info_.limits = gl.limits;
+}
+
+std::unique_ptr<DeviceScene> GlDevice::load(const PreparedScene& scene, const LightSet& lights,
+                                            const std::vector<BakedLight>& light, const DeviceSceneOptions& options) {
+  return std::make_unique<GlScene>(context_, scene, lights, light, options);
+}
+
+}  // namespace rubble

@@ -1,0 +1,50 @@
+// TriangleRaster by the graphics card. Internal to render/devices/gl.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/devices/gl/draw_list.h"
+#include "render/gl/shader.h"
+#include "render/passes/triangle_raster.h"
+
+namespace rubble {
+
+class GlRaster : public TriangleRaster {
+ public:
+  // What they refer to must outlive it.
+  GlRaster(const Gl& gl, const PreparedScene& scene, const GlGeometry& geometry);
+
+  void begin(const ViewProjection& view) override;
+  void draw(const std::vector<ClusterRun>& runs) override;
+  const std::vector<float>& depth_so_far() override;
+  void finish() override;
+
+  const std::vector<float>& depth_values() const override { return values_; }
+  const std::uint32_t* ids() const override { return nullptr; }
+  std::vector<std::uint32_t> read_ids() const override;
+
+  // The same on the card.
+  const GlTexture& depth_texture() const { return plane_depth_; }
+  const GlTexture& id_texture() const { return ids_; }
+
+ private:
+  void resize(int width, int height);
+  void add_record(std::uint32_t placed);
+  void add_run(const ClusterRun& run);
+
+  const Gl& gl_;
+  const PreparedScene& scene_;
+  const GlGeometry& geometry_;
+  GlProgram program_, plane_program_;
+  DrawList list_;
+  GlBuffer block_;
+  GlVertexArray empty_array_;
+  GlTexture ids_, depth_, plane_depth_;
+  GlFramebuffer target_, plane_target_;
+  int width_ = 0, height_ = 0;
+  const ViewProjection* view_ = nullptr;
+  std::vector<float> values_;
+};
+
+}  // namespace rubble

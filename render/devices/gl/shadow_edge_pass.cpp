@@ -1,0 +1,131 @@
+#include "render/devices/gl/shadow_edge_pass.h"
+
+#include <algorithm>
+
+#include "render/gl/shader.h"
+
+namespace rubble {
+
+namespace {
+
+// Mirrors shaders/shadow_edges.frag.glsl.
+struct SpreadBlock {
+  float ground[4], scale[4];
+  std::int32_t spread[4];
+};
+
+}  // namespace
+
+ShadowEdgePass::ShadowEdgePass(const Gl& gl, int side, std::vector<EdgeView> views)
+    : gl_(gl),
+      views_(std::move(views)),
+      map_side_(side),
+      side_((side + EdgeView::kTile - 1) / EdgeView::kTile),
+      block_(gl),
+      empty_array_(gl) {
+  const ShaderDefines tile{{"TILE", std::to_string(EdgeView::kTile)}};
+  ShaderDefines find = tile;
+  find.push_back({"FIND", ""});
+  find_ = make_program(gl, "fullscreen.vert.glsl", "shadow_edges.frag.glsl", find);
+  spread_ = make_program(gl, "fullscreen.vert.glsl", "shadow_edges.frag.glsl", tile);
+  for (const GlProgram* program : {&find_, &spread_}) {
+    bind_samplers(gl, *program, {{"shadow_values", 0}, {"tiles", 0}});
+    gl.UniformBlockBinding(program->name(), gl.GetUniformBlockIndex(program->name(), "Edges"), 0);
+  }
+  found_ = make_tiles(int(views_.size()));
+  edges_ = make_tiles(int(views_.size()));
+  across_ = make_tiles(1);
+}
+
+GlTexture ShadowEdgePass::make_tiles(int layers) const {
+  GlTexture tiles(gl_, GLenum(GL_TEXTURE_2D_ARRAY));
+  gl_.TextureStorage3D(tiles.name(), 1, GL_RG32UI, side_, side_, GLsizei(layers));
+  gl_.TextureParameteri(tiles.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl_.TextureParameteri(tiles.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  check_gl(gl_, "making the edges of the shadow map");
+  return tiles;
+}
+
+void ShadowEdgePass::copy(const GlTexture& from, const GlTexture& to) const {
+  gl_.CopyImageSubData(from.name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, to.name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0,
+                       side_, side_, GLsizei(views_.size()));
+}
+
+void ShadowEdgePass::find(const GlTexture& values) {
+  for (std::size_t layer = 0; layer < views_.size(); ++layer) find_in(values, layer, {{0, 0, side_, side_}});
+  read();
+}
+
+void ShadowEdgePass::keep() {
+  kept_found_ = make_tiles(int(views_.size()));
+  kept_edges_ = make_tiles(int(views_.size()));
+  copy(found_, kept_found_);
+  copy(edges_, kept_edges_);
+}
+
+void ShadowEdgePass::find_again(const GlTexture& values, const std::vector<std::vector<TexelRect>>& changed) {
+  copy(kept_found_, found_);
+  copy(kept_edges_, edges_);
+  for (std::size_t layer = 0; layer < views_.size(); ++layer) {
+    std::vector<TexelRect> tiles;
+    // A tile also reads the texels beside it on the right and above.
+    for (const TexelRect& r : changed[layer])
+      tiles.push_back({(r.x0 - 1) / EdgeView::kTile, (r.y0 - 1) / EdgeView::kTile, r.x1 / EdgeView::kTile + 1, r.y1 / EdgeView::kTile + 1});
+    find_in(values, layer, merge_rects(std::move(tiles)));
+  }
+  read();
+}
+
+void ShadowEdgePass::read() {
+  const std::size_t words = std::size_t(side_) * std::size_t(side_) * 2;
+  std::vector<std::uint32_t> all(words * views_.size());
+  gl_.GetTextureImage(edges_.name(), 0, GL_RG_INTEGER, GL_UNSIGNED_INT, GLsizei(all.size() * sizeof all[0]),
+                      all.data());
+  pyramids_.clear();
+  for (std::size_t i = 0; i < views_.size(); ++i) pyramids_.emplace_back(all.data() + i * words, side_);
+}
+
+void ShadowEdgePass::find_in(const GlTexture& values, std::size_t layer, const std::vector<TexelRect>& tiles) {
+  const EdgeView& view = views_[layer];
+  const int reach = view.reach();
+  const auto set_block = [&](int source_layer, int along_x, int along_y) {
+    const SpreadBlock block{{view.ground[0], view.ground[1], view.ground[2], 0},
+                          {view.reach_a_depth(),
+                           EdgeView::kLeastReach, view.least_step(), 0},
+                          {source_layer, along_x, along_y, reach}};
+    gl_.NamedBufferData(block_.name(), sizeof block, &block, GL_STREAM_DRAW);
+    gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_.name());
+  };
+  set_block(int(layer), 0, 0);
+  draw(find_, values, found_, layer, tiles, 0, 0);
+  set_block(int(layer), 1, 0);
+  draw(spread_, found_, across_, 0, tiles, reach, 2 * reach);
+  set_block(0, 0, 1);
+  draw(spread_, across_, edges_, layer, tiles, reach, reach);
+}
+
+void ShadowEdgePass::draw(const GlProgram& program, const GlTexture& source, const GlTexture& target,
+                          std::size_t layer, const std::vector<TexelRect>& tiles, int grow_x, int grow_y) {
+  GlFramebuffer frame(gl_);
+  gl_.NamedFramebufferTextureLayer(frame.name(), GL_COLOR_ATTACHMENT0, target.name(), 0, GLint(layer));
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, frame.name());
+  gl_.UseProgram(program.name());
+  gl_.BindTextureUnit(0, source.name());
+  gl_.BindVertexArray(empty_array_.name());
+  gl_.Viewport(0, 0, side_, side_);
+  gl_.Disable(GL_DEPTH_TEST);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.Enable(GL_SCISSOR_TEST);
+  for (const TexelRect& r : tiles) {
+    const int x = std::max(0, r.x0 - grow_x), y = std::max(0, r.y0 - grow_y);
+    const int width = std::min(side_, r.x1 + grow_x) - x, height = std::min(side_, r.y1 + grow_y) - y;
+    if (width <= 0 || height <= 0) continue;
+    gl_.Scissor(x, y, width, height);
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  gl_.Disable(GL_SCISSOR_TEST);
+  gl_.Finish();  // before the framebuffer goes
+  check_gl(gl_, "finding the edges of the shadow map");
+}
+
+}  // namespace rubble

@@ -19,11 +19,11 @@ def read_between_marks(path, name):
     return split_at_marks(path, name)[1]
 
 
-def write_between_marks(path, name, text):
+def write_between_marks(path, name, text, commit=None):
     """Replaces what is between the marks; the text around them stays as it is. Where a comment states what the table was
-    measured from (stale_tables.py), it states the working tree from now on."""
+    measured from (stale_tables.py), it states that commit from now on, or else the working tree."""
     before, old, after = split_at_marks(path, name)
-    whole = before + stale_tables.stamp_again(old) + text + after
+    whole = before + stale_tables.stamp_again(old, commit) + text + after
     with open(f"{path}.part", "w") as file:
         file.write(whole)
     os.replace(f"{path}.part", path)

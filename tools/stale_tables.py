@@ -52,14 +52,14 @@ def stamp(command, folders, commit=None):
         git("rev-parse", commit or "HEAD").strip()[:8], command, " ".join(folders), digest(blobs))
 
 
-def stamp_again(text):
+def stamp_again(text, commit=None):
     """The comment of a table that is measured anew: that of its old text, with today's commit and hash; "" without one.
     Without git the old one stays, and the table counts as stale."""
     found = MARK.search(text)
     if not found:
         return ""
     try:
-        return stamp(found[2], found[3].split())
+        return stamp(found[2], found[3].split(), commit)
     except (OSError, subprocess.CalledProcessError):
         return found[0] + "\n"
 

@@ -1,4 +1,5 @@
 """The tables of docs/explanation/sfm.md, from all results that are there, of the program as it is now."""
+import json
 import statistics
 import sys
 
@@ -101,6 +102,14 @@ def show(work, size):
     print(factor_table(collect(work, size)))
 
 
+def program_commit(work):
+    """Of the program whose flights are shown, as their manifests have it; None where it knew none."""
+    for path in (work.out / "flight").glob("*/run/manifest.json"):
+        if json.loads((path.parent.parent / "done.json").read_text())["depends"]["program"] == work.identity:
+            return json.loads(path.read_text())["program"].get("commit") or None
+    return None
+
+
 def write(work):
     found = {size: collect(work, size) for size in plan.SIZES}
     sizes = [size for size in plan.SIZES if found[size]]
@@ -112,7 +121,7 @@ def write(work):
         parts["factors"] += title + factor_table(found[size]) + "\n"
         parts["depths"] += title + depth_table(found[size]) + "\n"
     for name, text in parts.items():
-        document_marks.write_between_marks(PAGE, name, text)
+        document_marks.write_between_marks(PAGE, name, text, program_commit(work))
     import figure
     figure.draw(found[sizes[0]], plan.SIZES[sizes[0]].title, FIGURE)
     figure.draw_way(flights.Flights(work, plan.SIZES[sizes[0]]), WAY)

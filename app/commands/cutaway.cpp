@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
@@ -21,7 +23,7 @@ namespace {
 
 // A picture of the pile, cut open across Y.
 struct CutawayRequest {
-  double y = 0;       // --y, of the plane; what is in front of it is taken away; unit: m
+  std::optional<double> y;  // --y, of the plane; what is in front of it is taken away; unit: m
   int width = 900;    // --width; unit: pixel
   std::string title;  // --title, printed above
   std::string out;    // --out; empty: cutaway.png in the folder of the run
@@ -167,16 +169,27 @@ void light_up(Scene& scene) {
   scene.wetness = 0;
 }
 
+// Half of the pieces have their origins on either side; unit: m
+double find_middle(const PileState& pile) {
+  std::vector<double> places;
+  for (const PieceState& piece : pile.pieces)
+    if (piece.status != PieceStatus::lost) places.push_back(piece.world_from_body.translation.y);
+  if (places.empty()) return 0;
+  std::nth_element(places.begin(), places.begin() + std::ptrdiff_t(places.size() / 2), places.end());
+  return places[places.size() / 2];
+}
+
 ExitCode draw_cutaway(const FolderRequest& request, const CutawayRequest& cutaway) {
   const FinishedRun saved = open_finished_run(request.folder);
   const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
   const PileState pile = load_pile_of(saved);
-  PileSection section = cut_pile(build_scene(Scenario{}, assets, pile), cutaway.y);
+  double y = cutaway.y.value_or(0);
+  PileSection section = cut_pile(build_scene(Scenario{}, assets, pile), y);
+  if (section.faces.empty() && !cutaway.y) y = find_middle(pile), section = cut_pile(build_scene(Scenario{}, assets, pile), y);
   if (section.faces.empty())
-    throw InputError({"", 0, "--y", "the plane cuts no piece", "a plane through the pile",
-                      std::to_string(cutaway.y), ""});
+    throw InputError({"", 0, "--y", "the plane cuts no piece", "a plane through the pile", std::to_string(y), ""});
   light_up(section.scene);
-  const View view(section, cutaway.y, cutaway.width * kOversample);
+  const View view(section, y, cutaway.width * kOversample);
   RenderOptions options;
   options.threads = RunContext(request.options).threads();
   const std::unique_ptr<Device> device = open_device(request.options.gl_device, options.threads);
@@ -192,7 +205,7 @@ ExitCode draw_cutaway(const FolderRequest& request, const CutawayRequest& cutawa
   std::snprintf(
       note, sizeof note,
       "cut at y = %.2f m; red: what the cut went through; the person is %.2f m tall, the bar 1 m%s",
-      cutaway.y, kPerson, street ? "; without the surroundings" : "");
+      y, kPerson, street ? "; without the surroundings" : "");
   const std::string path = cutaway.out.empty() ? request.folder + "/cutaway.png" : cutaway.out;
   write_picture_sheet(path, cutaway.title, {{picture.shrunk(), "", note}}, 1);
   print_out("%s\n", path.c_str());
@@ -206,7 +219,7 @@ Action declare_cutaway(CommandLine& line) {
   add_device_option(line, of->options.gl_device);
   add_threads_option(line, of->options.threads);
   line.add("--y", request->y, "Position of the section plane on the Y axis")
-      .shows_default()
+      .shows_default_text("0; where that cuts nothing, the middle of the pieces")
       .metavar("METRES")
       .within(-1000.0, 1000.0);
   line.add("--width", request->width, "Width of the picture, in pixels")

@@ -7,8 +7,19 @@
 
 namespace rubble {
 
+namespace {
+
+// Where memory ends Embree says so, or no more than that something failed.
+std::string reason_of(RTCError error) {
+  if (error == RTC_ERROR_UNSUPPORTED_CPU) return "Embree does not know this processor";
+  if (error == RTC_ERROR_OUT_OF_MEMORY || error == RTC_ERROR_UNKNOWN) return "out of memory";
+  return "Embree gives no device, error " + std::to_string(int(error));
+}
+
+}  // namespace
+
 EmbreeTree::EmbreeTree() : device(rtcNewDevice("threads=1,set_affinity=0")) {
-  if (!device) throw RunError("cannot cast rays: Embree gives no device");
+  if (!device) throw RunError("cannot cast rays: " + reason_of(rtcGetDeviceError(nullptr)));
   scene = new_scene();
 }
 

@@ -152,7 +152,7 @@ TEST(RobotJudge, AFallingChainGoesWhereMujocosGoes) {
   options.sleeping = false;
   options.step = testing::kRobotStep;
   World world(make_link_types(model), options, {make_assembly(model, 0)});
-  world.add({testing::at(7, {0, 0, 3}, {}, true)});
+  world.add({testing::at(PieceKind::assembly(0), {0, 0, 3}, {}, true)});
   JudgeOptions judging;
   judging.fixed_base = true;
   judging.ground = false;

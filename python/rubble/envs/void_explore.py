@@ -12,7 +12,7 @@ Observation:
   clearance  distance from the centre of the ball to the nearest surface; m
   depth  picture of the depths along the optical axis: 255 is `max_range` or more. With `metres`, without the channel; m
   pose  forward, left and up since the start, in the frame of the start (m); yaw (rad)
-  rgb  colour image, only with `colour`; needs EGL
+  rgb  colour image, only with `colour`
 
 Reward:
   +100 x share  share of the cells of the void that the camera sees for the first time

@@ -162,7 +162,7 @@ def main():
     rested = sum(int(m["settled"].sum()) for variants in works.values() for m in variants.values())
     runs = sum(len(m["settled"]) for variants in works.values() for m in variants.values())
     commit = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "--short=8", "HEAD"], stdout=subprocess.PIPE, text=True).stdout.strip()
-    text = ("%d runs of %d seeds at %s; %d came to rest. Of %d comparisons %d agree with the finest; the table has the others.\n\n%s\n"
+    text = ("![Means over the seeds with their 95 %% intervals](../pictures/verification.png)\n\n%d runs of %d seeds at %s; %d came to rest. Of %d comparisons %d agree with the finest; the table has the others.\n\n%s\n"
             % (runs, seeds, commit, rested, compared, agree, table(works)))
     if request.print:
         print(text)

@@ -21,7 +21,7 @@ local crawler = rubble.robot.crawler {
 }
 
 return rubble.mission {
-  seed = 1,
+  seed = 3,
   packs = { "parking" },
   pile = building,
   robots = { crawler },

@@ -9,11 +9,10 @@ namespace rubble {
 
 namespace {
 
-// Where memory ends Embree says so, or no more than that something failed.
 std::string reason_of(RTCError error) {
   if (error == RTC_ERROR_UNSUPPORTED_CPU) return "Embree does not know this processor";
-  if (error == RTC_ERROR_OUT_OF_MEMORY || error == RTC_ERROR_UNKNOWN) return "out of memory";
-  return "Embree gives no device, error " + std::to_string(int(error));
+  if (error == RTC_ERROR_OUT_OF_MEMORY) return "out of memory";
+  return "Embree gives no device, error " + std::to_string(int(error)) + "; it says no more where a process is out of memory";
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo pictures film test check test-nightly test-asan test-tsan test-files fuzz mutants faults pairs determinism platforms format clean
+.PHONY: help packages program-packages build all package package-arm64 image archive install site asset-maker live demo pictures film test check test-nightly test-asan test-tsan test-files fuzz mutants faults pairs verification determinism platforms format clean
 
 PROGRAM := build/release/rubble
 # Tests have one thread each, so as many run at once as there are processors.
@@ -30,6 +30,7 @@ help:
 	@echo "make mutants    break the code on purpose, one fault at a time: which tests notice? (half an hour)"
 	@echo "make faults     interrupt a small run at many places, continue it, compare the bytes (an hour)"
 	@echo "make pairs      any two features of a mission together, judged by their data; goes on where it stopped (docs/development/pairs.md)"
+	@echo "make verification  piles, ruins and a robot at shorter steps and with more sweeps (docs/explanation/verification.md)"
 	@echo "make determinism  compare hashes of other compilers, levels and processors (half an hour)"
 	@echo "make platforms PLATFORM=debian13  demo and tests in a bare Debian 13; or windows, riscv64, arm64 (docs/development/platforms.md)"
 	@echo "make format     clang-format over the tree"
@@ -162,6 +163,13 @@ faults: build
 # PAIRS_OPTIONS: see tests/pairs/run_pairs.py.
 pairs: all
 	tests/pairs/run_pairs.py $(PROGRAM) build/pairs --python build/release/python --report docs/development/pairs.md $(PAIRS_OPTIONS)
+
+# Figures at shorter steps and with more sweeps (docs/explanation/verification.md): about an hour; goes on where it stopped.
+verification: build/release/build.ninja
+	@tools/install_packages.sh tools/packages-pictures.txt
+	cmake --build --preset release --target verification_bench
+	build/release/verification_bench --jobs 2 --out build/verification.jsonl
+	bench/verification/page.py build/verification.jsonl
 
 # Not part of any suite: it installs compilers and builds the kernel fifteen times.
 determinism: packages

@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "app/assets/asset_library.h"
-#include "app/fines/lay_fines.h"
+#include "app/fines/pile_fines.h"
 #include "app/scene/build_scene.h"
 #include "app/sensors/build_camera.h"
-#include "app/surroundings/lay_surroundings.h"
+#include "app/surroundings/pile_surroundings.h"
 #include "bench/channel_picture.h"
 #include "bench/gallery_list.h"
 #include "bench/program.h"
 #include "io/base/atomic_file.h"
-#include "io/image/jpeg_file.h"
+#include "io/image/image_file.h"
 #include "kernel/base/system/thread_count.h"
 #include "kernel/base/system/disk_cache.h"
 #include "kernel/settling/generator.h"

@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "app/assets/asset_library.h"
-#include "app/fines/lay_fines.h"
+#include "app/fines/pile_fines.h"
 #include "app/scene/build_scene.h"
-#include "app/surroundings/lay_surroundings.h"
+#include "app/surroundings/pile_surroundings.h"
 #include "io/state/pile_state_file.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"

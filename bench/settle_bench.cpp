@@ -1,10 +1,13 @@
 // settle_bench: the standard work, timed and judged.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
+#include "bench/busy_run.h"
 #include "bench/calibration.h"
 #include "bench/hold_run.h"
 #include "bench/program.h"
@@ -26,6 +29,7 @@ struct Request {
   bool csv = false;
   bool hold = false;
   bool sweeps = false;
+  std::vector<int> busy;
 };
 
 // A path as it is; a bare name like "w1" stands for the file that the build wrote.
@@ -75,6 +79,13 @@ ExitCode plan_sweeps(const Pile& pile, const SettleJob& job) {
   return run.settled ? ExitCode::done : ExitCode::did_not_settle;
 }
 
+// What more threads cost where others use the machine, too.
+ExitCode run_beside_loops(const Pile& pile, const SettleJob& job, const Request& request) {
+  const std::vector<BusyRun> runs = run_busy(pile, job, request.busy, {1, std::max(2, request.threads)}, request.repeat);
+  std::fputs(busy_csv(job, runs).c_str(), stdout);
+  return ExitCode::done;
+}
+
 ExitCode bench(const Request& request) {
   const std::string path = find_work(request.work);
   Pile pile = load_workload(path);
@@ -86,6 +97,7 @@ ExitCode bench(const Request& request) {
   job.options.threads = request.threads;
   if (request.hold) return hold(pile, job, request);
   if (request.sweeps) return plan_sweeps(pile, job);
+  if (!request.busy.empty()) return run_beside_loops(pile, job, request);
   bool settled = true;
   std::uint64_t hash = 0;
   for (int i = 0; i < request.repeat; ++i) {
@@ -126,6 +138,10 @@ ExitCode run(int argc, char** argv) {
   app.add_flag("--sweeps", request.sweeps,
                "Instead plan the sweeps of the settled pile with sleep off, for up to 16 threads: work, longest chain, "
                "waiting, as comma-separated lines");
+  app.add_option("--busy", request.busy,
+                 "Instead settle beside so many busy loops, in turn on one thread and on --threads (two at least), "
+                 "--repeat times each: median times and their ratio, as comma-separated lines")
+      ->check(CLI::Range(0, 1024));
   app.add_flag("--csv", request.csv, "Lines of comma-separated figures below a line of names");
   try {
     app.parse(argc, argv);

@@ -63,7 +63,7 @@ double measure(JointKind kind, int links, bool ground, int rounds) {
     options.sleeping = false;
     World world({make_box()}, options, {make_chain(kind, links)});
     NewPiece chain;
-    chain.placement.type = 1;
+    chain.placement.kind = PieceKind::assembly(0);
     chain.placement.world_from_body.translation = {-0.5 * kLength * links, 0, ground ? 0.2 : 500};
     if (!ground) chain.angular_velocity = {0.5, 0.3, 0.1};
     world.add({chain});

@@ -110,7 +110,7 @@ PieceType read_shape(WordReader& reader) {
 Placement read_piece(WordReader& reader, int shapes) {
   Placement piece;
   const std::string which = "the index of a shape, 0 to " + std::to_string(shapes - 1);
-  piece.type = reader.integer(which.c_str(), 0, shapes - 1);
+  piece.kind = reader.integer(which.c_str(), 0, shapes - 1);
   piece.scale = reader.real("a scale");
   if (piece.scale <= 0) {
     reader.fail("out of range", "a scale above 0", std::to_string(piece.scale));

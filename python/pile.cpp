@@ -11,7 +11,7 @@
 #include "app/scene/build_scene.h"
 #include "kernel/base/parallel.h"
 #include "kernel/base/system/file_sandbox.h"
-#include "kernel/geometry/fine_heaps.h"
+#include "kernel/geometry/fine_shapes.h"
 #include "kernel/queries/queries.h"
 #include "kernel/voids/void_map.h"
 #include "python/arrays.h"

@@ -5,7 +5,7 @@
 
 #include "kernel/base/hash.h"
 #include "scripting/sandbox/script_file.h"
-#include "scripting/scenario/scenario_schema.h"
+#include "scripting/scenario/mission_form.h"
 
 namespace rubble {
 namespace {

@@ -8,7 +8,7 @@ AssemblyType make_assembly(const Asset& asset, const AssetLibrary& library) {
   AssemblyType assembly;
   assembly.name = asset.name;
   for (const AssetLink& link : asset.links) {
-    assembly.links.push_back({library.find(link.asset), link.whole_from_link, link.scale});
+    assembly.links.push_back({library.find(link.asset).index, link.whole_from_link, link.scale});
     if (link.on >= 0) assembly.joints.push_back(link.joint);
   }
   return assembly;

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "app/assets/asset_loading.h"
+#include "app/assets/asset_materials.h"
 #include "app/assets/building_assets.h"
-#include "app/assets/material_variant.h"
 #include "app/assets/placed_box.h"
 #include "kernel/base/system/disk_cache.h"
 #include "kernel/base/system/file_sandbox.h"
@@ -152,15 +152,15 @@ void add_boxes(const Mission& mission, const std::vector<Material>& materials,
 
 }  // namespace
 
-int AssetLibrary::find(const PlacedItem& item) const {
+PieceKind AssetLibrary::find(const PlacedItem& item) const {
   return find(item.box ? placed_box_name(item) : item.asset);
 }
 
-int AssetLibrary::find(const std::string& name) const {
+PieceKind AssetLibrary::find(const std::string& name) const {
   for (std::size_t i = 0; i < types.size(); ++i)
     if (types[i].name == name) return int(i);
   for (std::size_t i = 0; i < assemblies.size(); ++i)
-    if (assemblies[i].name == name) return int(types.size() + i);
+    if (assemblies[i].name == name) return PieceKind::assembly(int(i));
   throw RunError("asset " + name + " was not loaded");
 }
 

@@ -33,11 +33,10 @@ struct AssetLibrary {
   // What reads the meshes; let go when all are loaded.
   std::shared_ptr<MeshImporter> importer = std::make_shared<MeshImporter>();
 
-  // Index of a type that was loaded, or the number of types plus the index of an assembly: as
-  // placements and mixes have it.
-  int find(const std::string& name) const;  // throws RunError
+  // The type or assembly of that name. Throws RunError.
+  PieceKind find(const std::string& name) const;
   bool has(const std::string& name) const;
-  int find(const PlacedItem& item) const;  // likewise, of its asset or its box
+  PieceKind find(const PlacedItem& item) const;  // likewise, of its asset or its box
   std::vector<int> terrain() const;        // the indices of types that are terrain; one or none
   std::vector<const TriangleMesh*> finest_meshes() const;  // one per type, kept by the library
 };

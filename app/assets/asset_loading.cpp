@@ -7,10 +7,9 @@
 #include <stdexcept>
 
 #include "app/assets/assemblies.h"
-#include "app/assets/decompose_cache.h"
-#include "app/assets/material_variant.h"
+#include "app/assets/asset_materials.h"
+#include "app/assets/convex_parts.h"
 #include "app/assets/placed_box.h"
-#include "app/assets/surface_choice.h"
 #include "app/assets/terrain.h"
 #include "io/mesh/mesh_file.h"
 #include "io/robot/urdf_reader.h"
@@ -317,7 +316,7 @@ std::vector<MixEntry> make_mix(const PileScenario& pile, const std::vector<Found
     for (const MixMaterial& m : item.materials) sum += m.weight;
     for (const MixMaterial& m : item.materials) {
       mix.push_back(entry);
-      mix.back().type = library.find(variant_name(item.asset, m.material));
+      mix.back().kind = library.find(variant_name(item.asset, m.material));
       mix.back().weight = item.weight * m.weight / sum;
     }
   }

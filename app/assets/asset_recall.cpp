@@ -4,8 +4,8 @@
 
 #include "app/assets/assemblies.h"
 #include "app/assets/asset_loading.h"
+#include "app/assets/asset_materials.h"
 #include "app/assets/building_assets.h"
-#include "app/assets/material_variant.h"
 #include "app/assets/placed_box.h"
 #include "app/assets/terrain.h"
 #include "scripting/packs/asset_pack.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/assets/surface_choice.h"
+#include "app/assets/asset_materials.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/mesh_edges.h"
 #include "kernel/base/system/file_sandbox.h"
@@ -116,7 +116,7 @@ MadeTerrain make_terrain(const TerrainScenario& spec, const std::vector<std::str
 
 Placement place_terrain(const TerrainScenario& spec, int type) {
   Placement placement;
-  placement.type = type;
+  placement.kind = type;
   placement.world_from_body.translation = spec.position;
   placement.fixed = true;
   return placement;

@@ -8,7 +8,7 @@
 #include "app/batch/batch_folder.h"
 #include "app/mission/finished_run.h"
 #include "app/provenance/manifest.h"
-#include "io/base/csv_text.h"
+#include "io/base/escaped_text.h"
 #include "scripting/values/value.h"
 
 namespace rubble {

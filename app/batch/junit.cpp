@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "io/base/xml_text.h"
+#include "io/base/escaped_text.h"
 
 namespace rubble {
 namespace {

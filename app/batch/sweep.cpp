@@ -9,7 +9,7 @@
 #include "io/base/number_text.h"
 #include "kernel/base/error.h"
 #include "kernel/base/random.h"
-#include "scripting/scenario/scenario_schema.h"
+#include "scripting/scenario/mission_form.h"
 
 namespace rubble {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "app/card/card_parts.h"
+#include "app/card/dataset_card.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/text.h"
 

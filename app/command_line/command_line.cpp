@@ -13,8 +13,7 @@
 
 #include "app/assets/asset_library.h"
 #include "app/command_line/command.h"
-#include "app/command_line/command_description.h"
-#include "app/command_line/program_text.h"
+#include "app/command_line/manual.h"
 #include "app/support/print.h"
 #include "scripting/schema/schema.h"
 #include "scripting/values/value.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command_line/command_description.h"
+#include "app/command_line/command.h"
 
 namespace rubble {
 

@@ -12,7 +12,7 @@
 #include "app/pipeline/recorders.h"
 #include "app/robots/robot_log.h"
 #include "app/support/print.h"
-#include "app/support/run_context.h"
+#include "app/support/run_request.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
 #include "io/base/remove_files.h"

@@ -10,7 +10,7 @@
 #include "app/mission/finished_run.h"
 #include "app/scene/build_scene.h"
 #include "app/support/print.h"
-#include "app/support/run_context.h"
+#include "app/support/run_request.h"
 #include "io/image/picture_sheet.h"
 #include "kernel/base/portable_math.h"
 #include "render/renderer.h"

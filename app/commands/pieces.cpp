@@ -9,7 +9,7 @@
 #include "app/scene/build_scene.h"
 #include "app/support/print.h"
 #include "io/base/atomic_file.h"
-#include "io/base/csv_text.h"
+#include "io/base/escaped_text.h"
 #include "io/base/number_text.h"
 #include "io/learning/parquet_file.h"
 #include "io/mesh/pile_model.h"

@@ -14,11 +14,7 @@
 #include "app/support/progress.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
-#include "io/voids/octomap_file.h"
-#include "io/voids/vdb_file.h"
-#include "io/voids/void_json.h"
-#include "io/voids/void_picture.h"
-#include "io/voids/void_surface.h"
+#include "io/voids/void_files.h"
 #include "kernel/base/parallel.h"
 #include "kernel/voids/void_map.h"
 

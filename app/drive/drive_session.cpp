@@ -1,5 +1,5 @@
 #include "app/drive/drive_session.h"
-#include "app/drive/words.h"
+#include "app/drive/drive_window.h"
 
 #include <algorithm>
 #include <chrono>

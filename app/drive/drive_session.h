@@ -8,7 +8,7 @@
 #include "app/drive/drive_leg.h"
 #include "app/drive/drive_link.h"
 #include "app/drive/drive_window.h"
-#include "app/drive/height_map.h"
+#include "app/drive/drive_world.h"
 #include "app/drive/overlay/overlay.h"
 #include "app/drive/overlay/void_survey.h"
 #include "io/image/drive_picture.h"

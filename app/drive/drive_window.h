@@ -1,6 +1,7 @@
 // The window on the screen; the one place that talks to SDL's video side.
 #pragma once
 
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,5 +29,14 @@ class DriveWindow {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+// Short texts with numbers, for the lines of a window.
+// As printf() makes it; at most 239 characters.
+template <typename... Values>
+std::string words(const char* format, Values... values) {
+  char text[240];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
 
 }  // namespace rubble

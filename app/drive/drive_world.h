@@ -1,4 +1,4 @@
-// What is driven through: one seed's settled pile, ready to be asked and drawn.
+// What is driven through: one seed's settled pile, ready to be asked and drawn; also from above.
 #pragma once
 
 #include <functional>
@@ -9,9 +9,28 @@
 #include "app/drive/robots/robot_drive.h"
 #include "app/pipeline/stages.h"
 #include "app/planning/pile_survey.h"
+#include "io/image/image_file.h"
+#include "kernel/queries/queries.h"
 #include "render/renderer.h"
 
 namespace rubble {
+
+// A square of the world, north (Y) up in the picture.
+struct MapFrame {
+  Vec3 centre;      // unit: m; z is not used
+  double side = 1;  // unit: m
+  int pixels = 1;   // a side
+
+  // Column and row of a place, also outside.
+  double column(const Vec3& p) const;
+  double row(const Vec3& p) const;
+};
+
+// Around all pieces and `camera`, with a margin.
+MapFrame frame_map(const PileState& pile, const Vec3& camera, int pixels);
+
+// Heights as colours from dark (the ground) to light, shaded by their slope.
+RgbImage draw_height_map(const PileQueries& queries, const MapFrame& frame, int threads);
 
 struct DriveWorld {
   Scenario scenario;                   // of the camera's size that was asked for, adapted to driving

@@ -36,16 +36,15 @@ struct PileCount : PileModelSize {
   std::vector<double> of_type;
 };
 
-// Of a type or an assembly, as placements and mixes have it.
-void add(const AssetLibrary& assets, int index, double times, PileCount& size) {
-  const auto types = int(assets.types.size());
-  if (index < types) {
+void add(const AssetLibrary& assets, PieceKind kind, double times, PileCount& size) {
+  const int index = kind.index;
+  if (!kind.is_assembly) {
     size.pieces += times;
     size.triangles += times * triangles_of(assets, index);
     size.of_type[std::size_t(index)] += times;
     return;
   }
-  for (const AssemblyLink& link : assets.assemblies[std::size_t(index - types)].links)
+  for (const AssemblyLink& link : assets.assemblies[std::size_t(index)].links)
     add(assets, link.type, times, size);
 }
 
@@ -99,7 +98,7 @@ PileModelSize size_of_pile(const Scenario& s, const AssetLibrary& assets) {
   for (const MixEntry& entry : assets.mix) weights += entry.weight;
   const double dropped = double(s.pile.layers) * s.pile.pieces_per_layer;
   for (const MixEntry& entry : assets.mix)
-    if (weights > 0) add(assets, entry.type, dropped * entry.weight / weights, size);
+    if (weights > 0) add(assets, entry.kind, dropped * entry.weight / weights, size);
   size.triangles *= kSamplingMargin;
   for (const PlacedItem& item : s.pile.placed) add(assets, assets.find(item), 1, size);
   if (s.pile.building.given()) add_building(s.pile, assets, size);

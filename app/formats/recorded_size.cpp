@@ -29,8 +29,15 @@ constexpr double kUsualRest = 12;  // after the last layer; unit: s
 // How long the camera watches the pile settle; unit: s.
 double duration_of_settling(const Scenario& s) {
   const RecordSettlingScenario& asked = s.record_settling;
-  const double last = s.pile.layers * s.settle.layer_time_limit + kUsualRest;
+  const double last = std::max(0, s.pile.layers - 1) * s.settle.layer_time_limit + kUsualRest;
   return std::max(0.0, std::min(asked.to.value_or(last), last) - asked.from);
+}
+
+// Inertial units go on until the flight; unit: s.
+double duration_until_flight(const Scenario& s) {
+  Scenario whole = s;
+  whole.record_settling.to.reset();
+  return duration_of_settling(whole);
 }
 
 void count_scans(const Scenario& s, double duration, FlightSize& size) {
@@ -94,7 +101,7 @@ FlightSize size_of_flight(const Scenario& s, std::size_t camera) {
   if (!s.record_settling.on) return size;
   if (!mounted.ride.on()) size.frames += frames_of_settling(s, mounted);  // robots start when the pile rests
   if (camera == 0) count_scans(s, duration_of_settling(s), size);
-  if (imu_rate > 0) size.imu_samples += duration_of_settling(s) * imu_rate + 1;
+  if (imu_rate > 0) size.imu_samples += duration_until_flight(s) * imu_rate + 1;
   return size;
 }
 

@@ -9,7 +9,9 @@
 
 #include "app/assets/asset_library.h"
 #include "kernel/model/pile_state.h"
+#include "kernel/voids/void_map.h"
 #include "render/scene/frame.h"
+#include "scripting/scenario/scenario.h"
 
 namespace rubble {
 
@@ -42,5 +44,13 @@ class DepthMetrics {
   std::vector<std::string> carriers_;
   std::map<std::string, Path> paths_;  // by carrier
 };
+
+// The voids of a settled pile, for missions that ask for them (`voids.on`).
+
+// What the mission asks of the map of voids.
+VoidSpaceOptions make_void_options(const VoidScenario& voids);
+
+// map: with the voids of a robot of that radius (unit: m).
+void add_void_metrics(const VoidMap& map, double radius, Metrics& metrics);
 
 }  // namespace rubble

@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "app/fines/lay_fines.h"
+#include "app/fines/pile_fines.h"
 #include "app/provenance/run_folder.h"
-#include "app/surroundings/lay_surroundings.h"
+#include "app/surroundings/pile_surroundings.h"
 #include "io/base/atomic_file.h"
 #include "io/state/pile_state_file.h"
 #include "kernel/base/hash.h"

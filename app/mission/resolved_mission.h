@@ -9,7 +9,7 @@
 #include "app/assets/asset_library.h"
 #include "app/provenance/provenance.h"
 #include "app/provenance/run_folder.h"
-#include "app/support/run_context.h"
+#include "app/support/run_request.h"
 #include "kernel/base/error.h"
 #include "kernel/model/pile.h"
 #include "kernel/model/pile_state.h"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/mission/scenario_lua.h"
-#include "app/navigate/range_scanner.h"
+#include "app/navigate/navigation_world.h"
 #include "io/base/atomic_file.h"
 #include "kernel/base/portable_math.h"
 #include "scripting/robots/robot_kind.h"

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/scene/build_scene.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/voids/void_path.h"
+#include "scripting/sensors/lidar.h"
 
 namespace rubble {
 namespace {
@@ -142,6 +144,29 @@ void NavigationWorld::choose_void() {
   throw InputError({"", 0, "pile", "no void for the crawler",
                     "one that a ball of " + std::to_string(rules_.radius) + " m enters from the ground, with room before it",
                     std::to_string(voids.size()) + " voids of another kind", "another pile or seed"});
+}
+
+namespace {
+
+LidarFigures figures_of(const NavigationRules& rules) {
+  LidarFigures figures;
+  figures.model = LidarModel::os0, figures.channels = 32, figures.columns = 512;
+  figures.rate_hz = 1 / rules.period;
+  return figures;
+}
+
+}  // namespace
+
+SensorItem make_range_scanner(const NavigationRules& rules, const std::string& name) { return make_lidar_item(name, figures_of(rules)); }
+
+RangeScanner make_range_scanner(const NavigationWorld& world, std::uint64_t seed, std::function<Pose(double time)> world_from_base) {
+  const Scenario& scenario = world.mission().scenario;
+  const std::int64_t start = scenario.start_ns;
+  const Pose base_from_scanner{{1, 0, 0, 0}, {0, 0, world.rules().scanner_height}};
+  const auto place = [world_from_base = std::move(world_from_base), base_from_scanner, start](std::int64_t stamp) {
+    return world_from_base(double(stamp - start) * 1e-9) * base_from_scanner;
+  };
+  return {figures_of(world.rules()).spec(), world.ray_world(), {place, start}, Medium(scenario.air, scenario.seed), seed, world.threads()};
 }
 
 }  // namespace rubble

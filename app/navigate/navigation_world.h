@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/mission/resolved_mission.h"
@@ -13,7 +15,9 @@
 #include "kernel/model/pile_state.h"
 #include "kernel/queries/queries.h"
 #include "kernel/voids/void_map.h"
+#include "render/lidar/lidar.h"
 #include "render/rays/ray_world.h"
+#include "scripting/sensors/sensor_item.h"
 
 namespace rubble {
 
@@ -65,5 +69,14 @@ class NavigationWorld {
   double shortest_ = 0;
   std::vector<std::uint32_t> inside_;  // cells of the void, ascending
 };
+
+// The scanner of the navigation benchmark: a LiDAR of 32 rings that scans once a period.
+using RangeScanner = Lidar;
+
+// As a mission has it.
+SensorItem make_range_scanner(const NavigationRules& rules, const std::string& name);
+
+// On the robot of the benchmark. world_from_base: at that time since its first scan began; unit: s
+RangeScanner make_range_scanner(const NavigationWorld& world, std::uint64_t seed, std::function<Pose(double time)> world_from_base);
 
 }  // namespace rubble

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/navigate_ros1/planar_pose.h"
+#include "app/navigate_ros1/odometry_track.h"
 #include "kernel/geometry/voxel_grid.h"
 
 namespace rubble {

@@ -5,6 +5,15 @@
 #include <cmath>
 
 namespace rubble {
+
+const std::vector<RobotKindOfNavigator>& known_robots() {
+  static const std::vector<RobotKindOfNavigator> kinds{
+      {"crawler", {{0.2, 0.46, 0.33}, {0.3, 0.57, 0.33}}, 0.36, 0.4},
+      {"rover", {{0.5, 0.26, 0.25}}, 0.3, 0.4},
+  };
+  return kinds;
+}
+
 namespace {
 
 constexpr double kMargin = 8;                      // of the map, around start and waypoints; unit: m

@@ -1,7 +1,7 @@
 // The stages that ask where a settled pile has room: the measures of its voids, and the flight.
 #include <cstdio>
 
-#include "app/measures/void_metrics.h"
+#include "app/measures/metrics.h"
 #include "app/pipeline/stages.h"
 #include "app/planning/camera_inside.h"
 #include "app/planning/flight.h"

@@ -7,7 +7,7 @@
 #include "app/pipeline/live.h"
 #include "app/pipeline/run.h"
 #include "app/support/stop.h"
-#include "app/surroundings/lay_surroundings.h"
+#include "app/surroundings/pile_surroundings.h"
 #include "io/state/track_file.h"
 
 namespace rubble {

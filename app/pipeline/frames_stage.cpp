@@ -8,15 +8,14 @@
 #include "app/pipeline/live.h"
 #include "app/pipeline/recorders.h"
 #include "app/pipeline/stages.h"
-#include "app/provenance/frame_journal.h"
+#include "app/provenance/frame_hashes.h"
 #include "app/scene/build_scene.h"
 #include "app/sensors/camera_renderers.h"
-#include "app/sensors/exact_depth.h"
 #include "app/sensors/sensor_suite.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
-#include "io/base/csv_text.h"
+#include "io/base/escaped_text.h"
 #include "io/recording/recording_queue.h"
 #include "render/gl/gl_context.h"
 #include "render/view/drawn_by.h"
@@ -146,7 +145,7 @@ PreparedLeg prepare_leg(const Leg& leg, const ResolvedMission& mission, const Se
   std::optional<Scene> felt_scene;
   if (felt && casts_rays(mission.scenario.sensors)) felt_scene = build_felt_scene(mission, seen);
   prepared.sensors = std::make_unique<SensorSuite>(
-      mission.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before}, felt_scene ? *felt_scene : scene,
+      mission.scenario, leg.flight, SensorBegin{leg.noise_seed, frames_before, leg.window.has_value()}, felt_scene ? *felt_scene : scene,
       *prepared.renderers, context.threads(), leg.window ? nothing_driven : seen.robots.readings);
   if (felt) prepared.depths = make_told_depths(mission, seen, context.threads());
   context.progress.finish("ready on " + gl.info().renderer);

@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "kernel/base/hash.h"
-#include "scripting/trajectory/sample_path.h"
+#include "scripting/trajectory/trajectory.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
 namespace {
+
+constexpr double kBeforeFlight = 1e-5;  // the watching ends so long before; unit: s
 
 std::int64_t to_ns(double seconds) { return std::llround(seconds * 1e9); }
 
@@ -55,11 +57,13 @@ TrajectorySpec stand(const Waypoint& place, const TrackWindow& window, double ra
 }
 
 // Of what stands on the rig: robots, and what they carry, come with the flight.
-Leg plan_watching(const Scenario& scenario, const TrajectorySpec& flown, const TrackWindow& window) {
+Leg plan_watching(const Scenario& scenario, const TrajectorySpec& flown, const TrackWindow& window, std::int64_t flight_ns) {
   Leg leg;
-  const TrajectorySpec path = stand(standing_place(scenario.record_settling, flown), window, rate_of_watching(scenario));
-  leg.flight = build_rig_flight(scenario.cameras, scenario.start_ns + to_ns(window.from), path.rate_hz,
-                                std::make_shared<const CameraPath>(path));
+  TrajectorySpec path = stand(standing_place(scenario.record_settling, flown), window, rate_of_watching(scenario));
+  const std::int64_t start_ns = scenario.start_ns + to_ns(window.from);
+  leg.flight = build_rig_flight(scenario.cameras, start_ns, path.rate_hz, std::make_shared<const CameraPath>(path));
+  path.waypoints.back().t = double(flight_ns - start_ns) * 1e-9 - kBeforeFlight;
+  leg.flight.path = std::make_shared<const CameraPath>(path);
   leg.window = window;
   leg.zero_ns = scenario.start_ns;
   leg.noise_seed = hash64("settling") ^ scenario.seed;
@@ -68,24 +72,29 @@ Leg plan_watching(const Scenario& scenario, const TrajectorySpec& flown, const T
 
 }  // namespace
 
-// The first stamp after the watching at which a frame of either rate may come.
+// The first stamp at the rate of the watching when it is over and all rests: what measures at a multiple of that rate
+// goes on without a jump.
 std::int64_t find_flight_start(const Scenario& scenario, const Track& track) {
   const std::optional<TrackWindow> window = find_window(scenario, track);
   if (!window) return scenario.start_ns;
   const double rate_hz = rate_of_watching(scenario);
   const CameraPath path(stand({}, *window, rate_hz));
-  const std::int64_t last = sample_path(path, rate_hz, scenario.start_ns + to_ns(window->from)).back().stamp_ns;
-  return std::max(last + to_ns(1 / rate_hz), scenario.start_ns + to_ns(track.end()));
+  const std::int64_t begin = scenario.start_ns + to_ns(window->from), rest = scenario.start_ns + to_ns(track.end());
+  std::int64_t frames = std::int64_t(sample_path(path, rate_hz, begin).size());
+  frames = std::max(frames, std::int64_t(std::ceil(double(rest - begin) * 1e-9 * rate_hz - 1e-6)));
+  return begin + to_ns(double(frames) / rate_hz);
 }
 
 std::vector<Leg> plan_legs(const Scenario& scenario, const FlightPlan& plan, const Track& track,
                            const RobotReadings& robots) {
   std::vector<Leg> legs;
-  if (const auto window = find_window(scenario, track)) legs.push_back(plan_watching(scenario, plan.trajectory, *window));
+  const std::int64_t flight_ns = find_flight_start(scenario, track);
+  if (const auto window = find_window(scenario, track))
+    legs.push_back(plan_watching(scenario, plan.trajectory, *window, flight_ns));
   Leg flight;
   flight.noise_seed = scenario.seed;
   const std::shared_ptr<const MotionPath> path = robots.ride ? robots.ride : plan.path;
-  flight.flight = build_rig_flight(scenario.cameras, find_flight_start(scenario, track), scenario.trajectory.rate_hz, path, robots);
+  flight.flight = build_rig_flight(scenario.cameras, flight_ns, scenario.trajectory.rate_hz, path, robots);
   legs.push_back(std::move(flight));
   return legs;
 }

@@ -1,7 +1,8 @@
 // The legs of a recording: what the camera sees one after the other, in one sequence of frames.
 //
 // A mission has one leg, its flight over the settled pile. With `record_settling` another comes before
-// it: the rig stands and watches the pile settle, unless nothing moved. Stamps run on from the one to the other. Robots, and
+// it: the rig stands and watches the pile settle, unless nothing moved. Stamps run on from the one to the other, and inertial
+// units do not pause between them. Robots, and
 // the sensors on them, start with the flight.
 #pragma once
 

@@ -2,13 +2,13 @@
 
 #include <filesystem>
 
-#include "app/fines/seen_fines.h"
+#include "app/fines/pile_fines.h"
 #include "app/formats/class_labels.h"
 #include "app/provenance/earlier_files.h"
 #include "app/scene/build_scene.h"
-#include "app/surroundings/seen_surroundings.h"
+#include "app/surroundings/pile_surroundings.h"
 #include "app/victims/place_victims.h"
-#include "io/recording/one_camera.h"
+#include "io/recording/frame_order.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/system/output_files.h"
 

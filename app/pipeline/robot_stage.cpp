@@ -5,7 +5,7 @@
 
 #include "app/control/robot_control.h"
 #include "app/pipeline/stages.h"
-#include "app/robots/buried_sensors.h"
+#include "app/robots/link_sensors.h"
 #include "app/robots/robot_files.h"
 #include "app/session/session.h"
 #include "app/support/stop.h"

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "app/control/robot_control.h"
-#include "app/fines/lay_fines.h"
+#include "app/fines/pile_fines.h"
 #include "app/pipeline/stages.h"
 #include "app/provenance/earlier_files.h"
 #include "app/scene/build_scene.h"
@@ -12,10 +12,10 @@
 #include "app/simulators/build_sim_scene.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
-#include "app/surroundings/lay_surroundings.h"
+#include "app/surroundings/pile_surroundings.h"
 #include "app/victims/place_victims.h"
 #include "io/base/atomic_file.h"
-#include "io/mesh/track_glb.h"
+#include "io/mesh/mesh_writers.h"
 #include "io/scenes/pile_export.h"
 #include "io/state/checkpoint_file.h"
 #include "io/state/pile_state_file.h"
@@ -38,14 +38,18 @@ constexpr std::size_t kNotedOverlaps = 3;  // that are named
 void note_placed_overlaps(const ResolvedMission& mission, const Pile& pile, RunContext& context) {
   // The mission's own come first, before terrain and furniture.
   const std::size_t own = std::min(pile.placed.size(), mission.scenario.pile.placed.size());
-  const std::vector<Placement> placed(pile.placed.begin(), pile.placed.begin() + std::ptrdiff_t(own));
+  std::vector<Placement> placed(pile.placed.begin(), pile.placed.begin() + std::ptrdiff_t(own));
+  if (own > 0 && pile.structures)
+    for (const StructurePiece& piece : pile.structures->damaged.pieces)
+      placed.push_back({pile.building_first_type + piece.type, 1, {{}, piece.position}, false});
   const auto name = [&](int i) {
     const Placement& placement = placed[std::size_t(i)];
-    return "pile.placed[" + std::to_string(i + 1) + "] (" + pile.types[std::size_t(placement.type)].name +
+    if (std::size_t(i) >= own) return pile.types[std::size_t(placement.kind.index)].name + " of the building";
+    return "pile.placed[" + std::to_string(i + 1) + "] (" + pile.types[std::size_t(placement.kind.index)].name +
            (placement.fixed ? ", fixed)" : ")");
   };
   std::size_t told = 0, fixed = 0;
-  for (const PlacedOverlap& overlap : find_placed_overlaps(pile.types, placed, kNotedPlacedOverlap)) {
+  for (const PlacedOverlap& overlap : find_placed_overlaps(pile.types, placed, own, kNotedPlacedOverlap)) {
     const bool both_fixed = placed[std::size_t(overlap.a)].fixed && placed[std::size_t(overlap.b)].fixed;
     if (both_fixed ? fixed++ > 0 : told++ >= kNotedOverlaps) continue;
     char depth[32];
@@ -55,7 +59,7 @@ void note_placed_overlaps(const ResolvedMission& mission, const Pile& pile, RunC
   }
   const std::size_t more = (told > kNotedOverlaps ? told - kNotedOverlaps : 0) + (fixed > 1 ? fixed - 1 : 0);
   if (more > 0)
-    context.warnings.push_back(std::to_string(more) + " more pairs of pile.placed reach into each other, less deep");
+    context.warnings.push_back(std::to_string(more) + " more pairs with pieces of pile.placed reach into each other, less deep");
 }
 
 constexpr double kStandsWithin = 0.1;   // of its place as built: a piece that has not fallen; unit: m

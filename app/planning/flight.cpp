@@ -5,7 +5,7 @@
 
 #include "app/planning/flight_path.h"
 #include "app/planning/void_places.h"
-#include "scripting/trajectory/sample_path.h"
+#include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
 namespace {

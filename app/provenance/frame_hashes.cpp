@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "kernel/base/error.h"
 #include "kernel/base/hash_pose.h"
 #include "render/streams/image_streams.h"
 
@@ -203,6 +204,24 @@ bool parse_hashes(const std::string& text, std::vector<std::uint64_t>& hashes) {
     hashes.push_back(value);
   }
   return true;
+}
+
+FrameJournal::FrameJournal(const std::string& path) : file_(path) {
+  const std::string text = file_.read_all();
+  std::size_t end = 0;
+  for (std::size_t begin = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
+    lines_.push_back(text.substr(begin, end - begin));
+  const std::size_t whole = text.rfind('\n') + 1;
+  if (whole < text.size()) file_.cut(whole);
+}
+
+void FrameJournal::note(std::size_t index, const std::vector<std::uint64_t>& hashes) {
+  const std::string line = format_hashes(hashes);
+  if (index >= lines_.size()) return file_.append(line + "\n");
+  if (lines_[index] == line) return;
+  throw RunError("frame " + std::to_string(index) +
+                 " is not the one that was rendered before the run was interrupted: has the "
+                 "graphics driver changed? Start again with --force");
 }
 
 }  // namespace rubble

@@ -12,7 +12,6 @@
 #include "app/report/score_means.h"
 #include "app/report/svg_plot.h"
 #include "io/image/image_file.h"
-#include "io/image/jpeg_file.h"
 #include "io/recording/contact_sheet.h"
 
 namespace rubble {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/base/atomic_file.h"
-#include "io/base/csv_text.h"
+#include "io/base/escaped_text.h"
 #include "io/base/number_text.h"
 #include "io/robot/urdf_writer.h"
 #include "io/mesh/stl_writer.h"
@@ -11,7 +11,7 @@
 #include "io/state/track_file.h"
 #include "kernel/base/system/output_files.h"
 #include "kernel/geometry/hull.h"
-#include "kernel/robot/looks.h"
+#include "kernel/robot/parts.h"
 #include "scripting/values/value.h"
 
 namespace rubble {

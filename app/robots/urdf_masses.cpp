@@ -1,4 +1,4 @@
-#include "app/robots/urdf_masses.h"
+#include "app/robots/urdf_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "kernel/base/inertia.h"
 #include "kernel/base/portable_math.h"
-#include "kernel/base/principal_axes.h"
 #include "kernel/geometry/shape.h"
 #include "kernel/robot/parts.h"
 

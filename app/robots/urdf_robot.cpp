@@ -4,8 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/robots/urdf_masses.h"
-#include "app/robots/urdf_shapes.h"
+#include "app/robots/urdf_parts.h"
 #include "io/robot/xacro_tool.h"
 #include "kernel/base/error.h"
 #include "kernel/geometry/shape.h"

@@ -1,14 +1,13 @@
-#include "app/robots/urdf_shapes.h"
+#include "app/robots/urdf_parts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "app/assets/decompose_cache.h"
-#include "app/assets/surface_choice.h"
+#include "app/assets/asset_materials.h"
+#include "app/assets/convex_parts.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/portable_math.h"
-#include "kernel/robot/looks.h"
 #include "kernel/robot/parts.h"
 
 namespace rubble {

@@ -5,8 +5,8 @@
 
 #include "app/assets/building_assets.h"
 #include "app/assets/terrain.h"
-#include "app/fines/seen_fines.h"
-#include "app/surroundings/seen_surroundings.h"
+#include "app/fines/pile_fines.h"
+#include "app/surroundings/pile_surroundings.h"
 #include "kernel/base/portable_math.h"
 #include "render/materials/paint_layers.h"
 #include "render/materials/surface_appearance.h"
@@ -17,7 +17,7 @@ namespace {
 Placement place(const PlacedItem& item, const AssetLibrary& assets) {
   constexpr double kRadians = portable::kPi / 180;
   Placement placement;
-  placement.type = assets.find(item);
+  placement.kind = assets.find(item);
   placement.scale = item.scale;
   placement.world_from_body = {
       portable::quat_from_rpy(item.rpy_deg.x * kRadians, item.rpy_deg.y * kRadians,

@@ -1,7 +1,7 @@
 #include "app/scene/moving_scene.h"
 
 #include "app/scene/build_scene.h"
-#include "kernel/robot/looks.h"
+#include "kernel/robot/parts.h"
 
 namespace rubble {
 namespace {

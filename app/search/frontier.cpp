@@ -4,8 +4,7 @@
 #include <queue>
 
 #include "app/search/baselines.h"
-#include "app/search/depth_mapping.h"
-#include "app/search/heat_reports.h"
+#include "app/search/exploration_map.h"
 
 namespace rubble {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "app/scene/build_scene.h"
-#include "app/victims/victim_places.h"
+#include "app/victims/place_victims.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/voids/void_path.h"
 #include "scripting/scenario/camera_scenario.h"

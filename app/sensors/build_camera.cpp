@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "kernel/base/random.h"
-#include "scripting/trajectory/sample_path.h"
+#include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
 

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
 
+#include "kernel/base/parallel.h"
 #include "render/gl/gl_context.h"
+#include "render/rays/depth_rays.h"
 #include "render/renderer.h"
 #include "render/scene/scene.h"
 #include "scripting/scenario/scenario.h"
@@ -38,6 +41,22 @@ class CameraRenderers {
  private:
   std::vector<std::unique_ptr<Renderer>> renderers_;
   std::vector<std::size_t> of_camera_;  // numbers of renderers
+};
+
+// Planar depth of a camera by exact rays: what a function that drives a robot is told, and what is recorded then.
+class ExactDepth {
+ public:
+  // Throws InputError for a lens that is no pinhole.
+  ExactDepth(const MountedCamera& camera, std::shared_ptr<RayWorld> world, int threads);
+
+  const Intrinsics& intrinsics() const { return rays_.intrinsics(); }
+  // As Frame::depth, of everything where it is at that stamp.
+  std::vector<float> measure(std::int64_t stamp_ns, const Pose& world_from_camera);
+
+ private:
+  DepthRays rays_;
+  std::shared_ptr<RayWorld> world_;
+  ThreadPool pool_;
 };
 
 }  // namespace rubble

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "app/sensors/exact_depth.h"
+#include "app/sensors/camera_renderers.h"
 #include "render/sensors/camera.h"
 
 namespace rubble {

@@ -1,16 +1,36 @@
 // What the robots of a mission sensed while they were driven, and whether one carries the rig.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
-#include "app/sensors/contact_history.h"
+#include "kernel/world/world.h"
 #include "render/scene/robot_sample.h"
-#include "scripting/trajectory/motion_path.h"
+#include "scripting/trajectory/smooth_path.h"
 #include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
+
+// How hard the links of robots pressed against anything else, in every step.
+class ContactHistory {
+ public:
+  // step: of the world; unit: s
+  ContactHistory() = default;
+  explicit ContactHistory(double step) : step_(step) {}
+
+  // After each step.
+  void note(const World& world, int robots);
+  // The largest sum of the normal forces on these links of a robot in the steps after `from` up to `to`, counted from the
+  // start; unit: N, s
+  double largest_force(std::size_t robot, const std::vector<std::size_t>& links, double from, double to) const;
+
+ private:
+  double step_ = 1;
+  std::vector<std::vector<std::vector<double>>> forces_;  // by step, robot, link; empty: none on any
+};
 
 // The way of a link that carries sensors of its own.
 struct LinkWay {

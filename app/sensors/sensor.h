@@ -12,7 +12,7 @@
 #include "render/rays/ray_world.h"
 #include "render/scene/sample.h"
 #include "scripting/scenario/scenario.h"
-#include "scripting/trajectory/motion_path.h"
+#include "scripting/trajectory/smooth_path.h"
 
 namespace rubble {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "app/sensors/camera_sensor.h"
@@ -57,15 +58,25 @@ SensorSuite::SensorSuite(const Scenario& scenario, const RigFlight& flight, cons
   const auto end_of = [&](const Carrier& carrier, std::int64_t last) {
     return robots.end_of(carrier, flight.path, flight.start_ns, last);
   };
+  std::vector<Member> others;
+  std::int64_t whole_ns = last_ns;  // the end of all scans; where the flight is too short for one, that of the first
+  for (std::size_t i = 0; i < scenario.sensors.size(); ++i) {
+    const SensorItem& item = scenario.sensors[i];
+    if (!is_there(item.ride)) continue;
+    const bool sees = item.figures->casts_rays();
+    others.push_back({make_sensor(parts, i), end_of(item.ride, begin.followed && !sees ? INT64_MAX : last_ns)});
+    if (sees) whole_ns = std::max(whole_ns, others.back().sensor->needs().end);
+  }
   for (const std::vector<RobotSample>& samples : robots.samples)
     add(std::make_unique<RobotSensor>(samples), stamp_from(last_ns, samples));
   for (std::size_t i = 0; i < scenario.imus.size(); ++i) {
     const ImuScenario& imu = scenario.imus[i];
     if (!is_there(imu.ride)) continue;
-    add(make_imu(parts, i), end_of(imu.ride, stamp_from(last_ns, flight.start_ns, imu.model.rate_hz)));
+    const std::int64_t end = stamp_from(whole_ns, flight.start_ns, imu.model.rate_hz);
+    // What carries it stands after its way.
+    add(make_imu(parts, i), begin.followed ? end_of(imu.ride, INT64_MAX) : whole_ns > last_ns ? end : end_of(imu.ride, end));
   }
-  for (std::size_t i = 0; i < scenario.sensors.size(); ++i)
-    if (is_there(scenario.sensors[i].ride)) add(make_sensor(parts, i), end_of(scenario.sensors[i].ride, last_ns));
+  std::move(others.begin(), others.end(), std::back_inserter(members_));
   for (std::size_t i = 0; i < flight.cameras.size(); ++i)
     if (is_there(scenario.cameras[i].ride))
       add(make_flown_camera(parts, i, flight, begin.frames.empty() ? 0 : begin.frames[i], renderers.of(i)), last_ns);

@@ -19,11 +19,13 @@ namespace rubble {
 struct SensorBegin {
   std::uint64_t noise_seed = 0;  // of all sensors
   std::vector<int> frames;       // number of each camera's first frame; empty: 0
+  bool followed = false;         // by a leg: what sees nothing measures to the end of the rig's way
 };
 
 // All sensors on the rig and on links of robots, and the readings of robots, merged by stamp. Each ends with the way of its
 // carrier, and all end with the last frame. Robots and inertial units go on to their first sample that is not before it, so
-// that their readings about the last picture and the last scan are known. Samples with equal stamps
+// that their readings about the last picture and the last scan are known, also of a flight that is shorter than a scan. Before another leg, what sees nothing goes on to
+// the end of its way. Samples with equal stamps
 // come in this order: robots, inertial units, other sensors, cameras, each in the order of the scenario. The renderers and the
 // readings must outlive the suite.
 class SensorSuite {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/robots/felt_links.h"
+#include "app/robots/link_sensors.h"
 #include "app/scene/moving_scene.h"
 #include "kernel/base/error.h"
 #include "kernel/world/world_robots.h"

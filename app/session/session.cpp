@@ -7,11 +7,38 @@
 #include "app/control/robot_control.h"
 #include "app/control/robot_senses.h"
 #include "app/control/script_control.h"
+#include "app/sensors/camera_renderers.h"
 #include "app/sensors/camera_sensor.h"
-#include "app/session/live_colours.h"
 #include "kernel/world/world_robots.h"
 
 namespace rubble {
+
+struct LiveColoursOptions {
+  int gl_device = -1;           // see GlContextOptions
+  int threads = 1;
+  Renderer::Progress progress;  // of the light
+};
+
+// What cameras on robots show while the robots are driven: renderers of their own, of the scene that goes on.
+//
+// Its pictures have the bits of the recorded ones, which are drawn by such renderers of a scene that is lit in the same way
+// then: build_live_scene().
+class LiveColours {
+ public:
+  // scene: shows everything where the history of the sensors has it. drawn: numbers of the cameras. Throws RunError as
+  // GlContext and Renderer do.
+  LiveColours(const Scene& scene, const std::vector<MountedCamera>& cameras, const std::vector<std::size_t>& drawn,
+              const LiveColoursOptions& options)
+      : gl_({options.gl_device, options.threads}),
+        renderers_(scene, cameras, drawn, gl_, {options.threads, options.progress, {}}) {}
+
+  Renderer& renderer_of(std::size_t camera) { return renderers_.of(camera); }
+
+ private:
+  GlContext gl_;
+  CameraRenderers renderers_;
+};
+
 namespace {
 
 // Numbers of the sensors on robots.

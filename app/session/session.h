@@ -18,7 +18,7 @@
 #include "app/scene/moving_scene.h"
 #include "app/session/driven_robots.h"
 #include "app/session/pose_history.h"
-#include "app/support/run_context.h"
+#include "app/support/run_request.h"
 #include "kernel/model/pile_state.h"
 #include "kernel/robot/robot_run.h"
 #include "render/scene/sample.h"

@@ -4,10 +4,9 @@
 #include <charconv>
 #include <map>
 
-#include "app/fines/seen_fines.h"
+#include "app/fines/pile_fines.h"
 #include "app/scene/build_scene.h"
 #include "app/scene/look_pictures.h"
-#include "app/simulators/robot_models.h"
 #include "io/base/number_text.h"
 #include "io/scenes/pile_export.h"
 #include "kernel/base/error.h"
@@ -15,7 +14,7 @@
 #include "kernel/base/portable_math.h"
 #include "kernel/geometry/shape.h"
 #include "kernel/model/settled_joints.h"
-#include "kernel/surroundings/solid_surface.h"
+#include "kernel/surroundings/make_surroundings.h"
 
 namespace rubble {
 namespace {

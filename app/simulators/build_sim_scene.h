@@ -8,6 +8,7 @@
 #include "app/robots/mission_robot.h"
 #include "io/scenes/sim_scene.h"
 #include "kernel/model/pile_state.h"
+#include "scripting/scenario/scenario.h"
 
 namespace rubble {
 
@@ -39,5 +40,13 @@ BuiltScene build_sim_scene(const ResolvedMission& mission, const PileState& pile
 
 // The same notes with what the formats cannot say; formats: names of mesh_formats().
 std::vector<std::string> list_notes(const BuiltScene& built, const std::vector<std::string>& formats);
+
+// Robots and cameras of a mission for simulators.
+
+// Each at the place and with the joints that the mission starts it with. notes: what of them is left out.
+void add_robots(const Scenario& scenario, const std::vector<MissionRobot>& robots, SimScene& scene, std::vector<std::string>& notes);
+
+// On the links that carry them, or where the flight begins. After add_robots().
+void add_cameras(const Scenario& scenario, const std::vector<MissionRobot>& robots, SimScene& scene, std::vector<std::string>& notes);
 
 }  // namespace rubble

@@ -1,8 +1,8 @@
-#include "app/simulators/robot_models.h"
+#include "app/simulators/build_sim_scene.h"
 
 #include <algorithm>
 
-#include "kernel/robot/looks.h"
+#include "kernel/robot/parts.h"
 #include "scripting/trajectory/trajectory.h"
 
 namespace rubble {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/support/progress.h"
+
 namespace rubble {
 
 // What goes over a network while frames are drawn; nothing unless asked (docs/how_to/live.md).
@@ -46,6 +48,17 @@ struct FolderRequest {
   std::string folder;                    // of a finished or unfinished run
   std::vector<std::string> asset_packs;  // --assets DIR: where its packs may be now
   RunOptions options;                    // of what is done with it
+};
+
+// How a run is done and who is told of it, as apart from what is run: none of it changes a result.
+struct RunContext {
+  explicit RunContext(const RunOptions& asked);
+
+  const RunOptions options;           // as they were asked for
+  Progress progress;                  // what a person sees meanwhile
+  std::vector<std::string> warnings;  // what is likely not as it was meant, for a person
+
+  int threads() const;  // as asked, or all processors; at least 1
 };
 
 }  // namespace rubble

@@ -1,13 +1,13 @@
 #include "app/victims/place_victims.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/planning/pile_survey.h"
-#include "app/victims/victim_places.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
 #include "kernel/world/world.h"
@@ -15,6 +15,30 @@
 #include "kernel/world/world_rest.h"
 
 namespace rubble {
+
+VoidSpaceOptions victim_space_options(double radius) {
+  VoidSpaceOptions options;
+  options.voxel = std::min(radius, std::max(0.05, 0.5 * radius));
+  options.rolling_radius = outside_radius_for(options.rolling_radius, radius);
+  return options;
+}
+
+std::vector<VictimPlace> find_victim_places(const VoidMap& map, VictimDifficulty difficulty) {
+  std::vector<VictimPlace> all;
+  for (const Void& v : map.robots.front().voids) {
+    if (v.entrances.empty()) continue;
+    const std::vector<double> ways = calc_ways_in(map.space, v);
+    for (std::size_t i = 0; i < ways.size(); ++i)
+      if (std::isfinite(ways[i]) && ways[i] >= kLeastWayIn)
+        all.push_back({map.space.grid.centre(v.places[i]), ways[i]});
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const VictimPlace& a, const VictimPlace& b) { return a.way_in < b.way_in; });
+  const auto third = std::size_t(difficulty);
+  const auto at = [&](std::size_t k) { return all.begin() + std::ptrdiff_t(all.size() * k / 3); };
+  return {at(third), at(third + 1)};
+}
+
 namespace {
 
 // Their heads, in the frames of the assets, whose origin is the middle of the trunk; unit: m.
@@ -46,7 +70,7 @@ std::vector<Figure> find_figures(const AssetLibrary& assets) {
   std::vector<Figure> figures;
   for (const auto& [name, head] : kHeads) {
     Figure figure;
-    figure.type = assets.find(name);
+    figure.type = assets.find(name).index;
     for (const Vec3f& p : assets.meshes[std::size_t(figure.type)]->levels.back().positions)
       figure.corners.push_back(Vec3(p));
     for (const Vec3& p : figure.corners) figure.lowest = std::min(figure.lowest, p.z);

@@ -11,14 +11,11 @@
 #include "app/formats/recording_formats.h"
 #include "app/report/html_text.h"
 #include "app/scene/build_scene.h"
-#include "app/view/packed_mesh.h"
-#include "app/view/robots_of_page.h"
-#include "app/view/viewer_code.h"
+#include "app/view/page_parts.h"
 #include "io/image/image_file.h"
-#include "io/image/jpeg_file.h"
 #include "io/mesh_formats/ply_reader.h"
 #include "io/playback/recorded_picture.h"
-#include "io/voids/void_surface.h"
+#include "io/voids/void_files.h"
 #include "kernel/base/error.h"
 
 namespace rubble {

@@ -22,4 +22,9 @@ std::string make_dataset_page(const FinishedRun& saved, const AssetLibrary& asse
 // How many surfaces in the folder `voids` are of another pile, or do not say of which: the page leaves them out.
 int count_voids_of_other_piles(const FinishedRun& saved);
 
+// The scripts of the page that shows a dataset, compiled in: app/view/viewer.js, and three.js as Debian
+// has it. Made by CMake.
+std::string viewer_code();
+std::string three_code();  // empty where libjs-three was not installed when the program was built
+
 }  // namespace rubble

@@ -1,11 +1,10 @@
-#include "app/view/robots_of_page.h"
+#include "app/view/page_parts.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "app/eval/scores/trajectory_file.h"
-#include "app/view/packed_mesh.h"
 #include "io/base/atomic_file.h"
 #include "io/mesh/mesh_file.h"
 #include "io/robot/urdf_writer.h"

@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "assets/generator/bar.h"
-#include "assets/generator/sheet.h"
 #include "assets/generator/solid.h"
 #include "assets/generator/surface_mesh.h"
+#include "assets/generator/thin_shapes.h"
 
 namespace rubble::generator {
 

@@ -23,12 +23,11 @@ struct Instance {
 void add_instances(const Pile& pile, const std::vector<Placement>& placements, int& next,
                    std::vector<Instance>& instances) {
   for (const Placement& placement : placements) {
-    const int assembly = placement.type - int(pile.types.size());
-    if (assembly < 0) {
+    if (!placement.kind.is_assembly) {
       ++next;
       continue;
     }
-    const AssemblyType& type = pile.assemblies.at(std::size_t(assembly));
+    const AssemblyType& type = pile.assemblies.at(std::size_t(placement.kind.index));
     instances.push_back({&type, placement.scale, next});
     next += int(type.links.size());
   }

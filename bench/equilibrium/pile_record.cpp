@@ -1,6 +1,7 @@
 #include "bench/equilibrium/pile_record.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include "bench/report.h"
 #include "kernel/base/hash.h"
@@ -9,6 +10,7 @@ namespace rubble {
 namespace {
 
 constexpr double kMillimetre = 1e3;   // per metre
+constexpr std::size_t kNamedEjections = 5;
 constexpr double kFarDrift = 0.020;   // no piece of a pile at rest should go farther; unit: m
 
 // To so many parts of one.
@@ -32,6 +34,13 @@ void add_settling(const Work& work, const SettleRun& run, Record& record) {
   record["wall_s"] = round_to(run.wall, 1e3);
   record["lost"] = state.lost;
   record["ejected"] = run.ejected.size();
+  for (std::size_t i = 0; i < run.ejected.size() && i < kNamedEjections; ++i) {
+    const Ejection& e = run.ejected[i];
+    char text[160];
+    std::snprintf(text, sizeof text, "%s in step %lld: %.1f to %.1f m/s, z %.2f m", name_of_piece(state, e.piece).c_str(),
+                  static_cast<long long>(e.step), std::sqrt(dot(e.before, e.before)), std::sqrt(dot(e.after, e.after)), e.place.z);
+    record["first_ejected"].push_back(text);
+  }
   record["state_hash"] = hex64(state.state_hash());
 }
 

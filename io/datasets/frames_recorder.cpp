@@ -9,7 +9,6 @@
 #include "io/image/flow_file.h"
 #include "io/image/image_file.h"
 #include "io/recording/frame_order.h"
-#include "io/recording/one_camera.h"
 #include "render/streams/image_streams.h"
 
 namespace rubble {

@@ -7,7 +7,6 @@
 #include "io/base/number_text.h"
 #include "io/datasets/dataset_recorders.h"
 #include "io/datasets/pose_rows.h"
-#include "io/image/depth_encoding.h"
 #include "io/image/image_file.h"
 #include "io/recording/frame_order.h"
 

@@ -3,7 +3,6 @@
 #include <webp/decode.h>
 
 #include "io/image/picture_decoder.h"
-#include "io/image/png_pixels.h"
 #include "kernel/base/error.h"
 
 namespace rubble {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "io/base/atomic_file.h"
-#include "io/image/jpeg_file.h"
+#include "io/image/image_file.h"
 #include "io/image/lettering.h"
 
 namespace rubble {

@@ -152,12 +152,6 @@ PaintImage make_relief(const RgbaImage* normals, const RgbaImage* roughness, con
   return out;
 }
 
-std::string sha256_of(std::string_view bytes) {
-  Sha256 hash;
-  hash.add(bytes.data(), bytes.size());
-  return hash.hex();
-}
-
 }  // namespace
 
 MeshPaints::MeshPaints(const ImportedScene& scene, const std::string& path)
@@ -179,7 +173,7 @@ std::shared_ptr<const SurfacePaint> MeshPaints::of(int material) {
   const auto [found, is_new] = paints_.try_emplace(material);
   if (is_new) {
     SurfacePaint paint;
-    paint.sha256 = sha256_of("plain");
+    paint.sha256 = sha256("plain");
     if (material >= 0) paint = read(scene_.materials[std::size_t(material)]);
     found->second = std::make_shared<const SurfacePaint>(std::move(paint));
   }
@@ -288,12 +282,12 @@ MeshPaints::Image MeshPaints::load(const ImportedImage& image) {
   try {
     if (image.bytes) shown += " in the file";
     if (!image.fault.empty()) throw RunError(image.fault);
-    if (image.bytes) return {decode_picture(*image.bytes), sha256_of(*image.bytes)};
+    if (image.bytes) return {decode_picture(*image.bytes), sha256(*image.bytes)};
     const auto found = find_beside(folder_, image.name, "textures");
     if (!found) throw RunError("lies neither beside the mesh nor in its folder textures");
     check_may_read(*found, {mesh_path_, 0, "the image " + shown, "", "", "", ""});
     const std::string bytes = read_file(*found, kLargestFile);
-    return {decode_picture(bytes), sha256_of(bytes)};
+    return {decode_picture(bytes), sha256(bytes)};
   } catch (const RefusedFile&) {
     throw;
   } catch (const std::exception& error) {

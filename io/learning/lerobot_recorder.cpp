@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "io/base/folder_writer.h"
-#include "io/image/jpeg_file.h"
+#include "io/image/image_file.h"
 #include "io/learning/mp4_file.h"
 #include "io/learning/parquet_file.h"
 #include "io/recording/frame_order.h"

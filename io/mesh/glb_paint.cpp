@@ -1,4 +1,4 @@
-#include "io/mesh/glb_paint.h"
+#include "io/mesh/mesh_writers.h"
 
 #include <algorithm>
 #include <cmath>

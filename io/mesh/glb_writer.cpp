@@ -5,9 +5,7 @@
 
 #include "io/base/atomic_file.h"
 #include "io/base/little_endian.h"
-#include "io/mesh/glb_paint.h"
 #include "io/mesh/mesh_writers.h"
-#include "io/mesh/track_glb.h"
 #include "kernel/base/error.h"
 
 namespace rubble {

@@ -1,10 +1,9 @@
-#include "io/mesh/obj_writer.h"
+#include "io/mesh/mesh_writers.h"
 
 #include <algorithm>
 #include <charconv>
 
 #include "io/base/atomic_file.h"
-#include "io/mesh/mesh_writers.h"
 #include "kernel/base/system/output_files.h"
 #include "kernel/base/text.h"
 

@@ -60,4 +60,8 @@ double gltf_number(const nlohmann::json& object, const char* name, double otherw
 std::string gltf_text(const nlohmann::json& object, const char* name);
 const nlohmann::json* gltf_member(const nlohmann::json& object, const char* name);  // null: none
 
+// The materials, textures and images of a glTF file.
+// Appends all of them, in the order of the file.
+void read_gltf_materials(const GltfDocument& document, ImportedScene& scene);
+
 }  // namespace rubble

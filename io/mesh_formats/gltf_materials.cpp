@@ -1,4 +1,4 @@
-#include "io/mesh_formats/gltf_materials.h"
+#include "io/mesh_formats/gltf_document.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,11 @@
-#include "io/mesh_formats/gltf_reader.h"
+#include "io/mesh_formats/scene_reader.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "io/mesh_formats/assimp_reader.h"
 #include "io/mesh_formats/draco_decoder.h"
 #include "io/mesh_formats/gltf_document.h"
-#include "io/mesh_formats/gltf_materials.h"
 #include "kernel/base/error.h"
 #include "kernel/base/text.h"
 

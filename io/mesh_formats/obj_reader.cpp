@@ -1,4 +1,4 @@
-#include "io/mesh_formats/obj_reader.h"
+#include "io/mesh_formats/scene_reader.h"
 
 #include <cmath>
 #include <map>

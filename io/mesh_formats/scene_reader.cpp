@@ -2,12 +2,7 @@
 
 #include <filesystem>
 
-#include "io/mesh_formats/assimp_reader.h"
-#include "io/mesh_formats/gltf_reader.h"
-#include "io/mesh_formats/obj_reader.h"
 #include "io/mesh_formats/ply_reader.h"
-#include "io/mesh_formats/stl_reader.h"
-#include "io/mesh_formats/threemf_reader.h"
 
 namespace rubble {
 

@@ -1,4 +1,4 @@
-#include "io/mesh_formats/stl_reader.h"
+#include "io/mesh_formats/scene_reader.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,12 +1,11 @@
-#include "io/mesh_formats/threemf_reader.h"
+#include "io/mesh_formats/scene_reader.h"
 
 #include <algorithm>
 #include <map>
 
+#include "io/base/compressed_file.h"
 #include "io/base/srgb.h"
-#include "io/base/zip_file.h"
 #include "io/import/text_scan.h"
-#include "io/import/xml_scan.h"
 #include "kernel/base/read_file.h"
 #include "kernel/base/text.h"
 

@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "io/base/atomic_file.h"
-#include "io/base/gzip.h"
-#include "io/image/depth_encoding.h"
+#include "io/base/compressed_file.h"
+#include "io/image/image_file.h"
 #include "io/mrpt/action_frames.h"
 #include "io/mrpt/mrpt_types.h"
 #include "io/mrpt/reading_observations.h"

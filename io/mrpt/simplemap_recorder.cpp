@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "io/base/atomic_file.h"
-#include "io/base/gzip.h"
+#include "io/base/compressed_file.h"
 #include "io/base/little_endian.h"
 #include "io/mrpt/mrpt_types.h"
 #include "io/recording/frame_order.h"

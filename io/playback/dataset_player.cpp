@@ -9,7 +9,7 @@
 #include "io/playback/recorded_picture.h"
 #include "io/playback/recorded_tables.h"
 #include "io/playback/ros_samples.h"
-#include "io/recording/one_camera.h"
+#include "io/recording/frame_order.h"
 #include "kernel/base/error.h"
 #include "render/streams/image_streams.h"
 

@@ -1,4 +1,4 @@
-#include "io/playback/rawlog_pictures.h"
+#include "io/playback/picture_sources.h"
 
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/obs/CActionCollection.h>

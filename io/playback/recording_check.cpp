@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "io/base/gzip.h"
+#include "io/base/compressed_file.h"
 #include "io/ros/ros_message_reader.h"
 
 namespace rubble {

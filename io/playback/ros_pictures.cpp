@@ -1,4 +1,4 @@
-#include "io/playback/ros_pictures.h"
+#include "io/playback/picture_sources.h"
 
 #include "io/playback/wire_reader.h"
 

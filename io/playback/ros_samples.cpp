@@ -5,8 +5,7 @@
 #include <optional>
 
 #include "io/image/picture_decoder.h"
-#include "io/image/png_pixels.h"
-#include "io/playback/ros_pictures.h"
+#include "io/playback/picture_sources.h"
 #include "io/playback/wire_reader.h"
 #include "kernel/base/error.h"
 #include "render/streams/image_streams.h"

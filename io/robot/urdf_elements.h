@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "io/base/xml_document.h"
+#include "io/robot/urdf_reader.h"
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
 
@@ -65,5 +66,27 @@ class UrdfElements {
   std::vector<std::pair<int, std::string>> warnings_;       // line, text
   std::map<std::pair<std::string, std::string>, std::vector<int>> left_out_;  // by parent and element: lines
 };
+
+// The links and joints of a URDF file in the order of their tree.
+
+// A joint with the names of its links, before the tree is known.
+struct UrdfNamedJoint {
+  UrdfJoint joint;            // without parent and child
+  std::string parent, child;  // names of links
+  bool floating = false;
+};
+
+// Fills links, joints and `fixed` of the file: the root first, parents before children, siblings by the names of their
+// joints, as liburdfdom and pinocchio order them. Throws InputError with every mistake: names that are there twice, ends
+// of joints that are not there, loops, several roots, floating joints anywhere but below an empty root.
+void order_urdf_tree(UrdfElements& elements, std::vector<UrdfLink> links, std::vector<UrdfNamedJoint> joints, UrdfFile& file);
+
+// Where the mesh files that a URDF file names lie on this machine.
+// name: as the file has it: relative, absolute, "package://PACKAGE/PATH", "model://MODEL/PATH" or "file://PATH",
+// with %20 and the like. Relative names and packages are looked for in the folder of the URDF file and in those
+// that it lies in, whether or not PACKAGE is a folder there, then in $ROS_PACKAGE_PATH and $AMENT_PREFIX_PATH.
+// Absolute paths are often those of another machine: their last folders are looked for as relative names are.
+// Empty: there is no such file.
+std::string find_urdf_mesh(const std::string& name, const std::string& urdf_path);
 
 }  // namespace rubble

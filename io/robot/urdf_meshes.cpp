@@ -1,4 +1,4 @@
-#include "io/robot/urdf_meshes.h"
+#include "io/robot/urdf_elements.h"
 
 #include <algorithm>
 #include <cstdlib>

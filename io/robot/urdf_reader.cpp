@@ -7,8 +7,6 @@
 #include "io/base/srgb.h"
 #include "io/base/xml_document.h"
 #include "io/robot/urdf_elements.h"
-#include "io/robot/urdf_meshes.h"
-#include "io/robot/urdf_tree.h"
 #include "io/robot/xacro_tool.h"
 #include "kernel/base/error.h"
 #include "kernel/base/read_file.h"

@@ -1,4 +1,4 @@
-#include "io/robot/urdf_tree.h"
+#include "io/robot/urdf_elements.h"
 
 #include <algorithm>
 #include <map>

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/base/escaped_text.h"
 #include "io/base/number_text.h"
-#include "io/base/xml_text.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/text.h"
 

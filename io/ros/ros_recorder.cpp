@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include "io/image/depth_encoding.h"
 #include "io/image/image_file.h"
-#include "io/image/jpeg_file.h"
 #include "io/ros/vector_colours.h"
 #include "io/recording/frame_order.h"
 #include "io/ros/robot_topics.h"

@@ -5,8 +5,7 @@
 
 #include "io/base/number_text.h"
 #include "io/base/srgb.h"
-#include "io/mesh/glb_paint.h"
-#include "io/mesh/obj_writer.h"
+#include "io/mesh/mesh_writers.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/text.h"
 
@@ -64,11 +63,6 @@ std::vector<SceneLook> list_looks(const ExportModel& model) {
       if (at == looks.end() || at->name != name) looks.insert(at, describe_look(model.pile, *mesh.mesh, s));
     }
   return looks;
-}
-
-const SceneLook& find_look(const std::vector<SceneLook>& looks, const std::string& surface) {
-  return *std::lower_bound(looks.begin(), looks.end(), surface,
-                           [](const SceneLook& look, const std::string& n) { return look.name < n; });
 }
 
 std::string srgb_text(const Vec3f& linear) {

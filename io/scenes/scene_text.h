@@ -32,7 +32,6 @@ struct SceneLook {
 };
 // Of all surfaces, by name. Surfaces without a name have the look "grey".
 std::vector<SceneLook> list_looks(const ExportModel& model);
-const SceneLook& find_look(const std::vector<SceneLook>& looks, const std::string& surface);
 std::string surface_name(const TriangleMesh& mesh, std::size_t surface);
 std::size_t count_surfaces(const TriangleMesh& mesh);
 // sRGB code values, 0 to 1, with alpha: "0.5 0.5 0.5 1".

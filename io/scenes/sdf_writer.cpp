@@ -1,8 +1,8 @@
 // An SDF 1.9 world for Gazebo Sim: http://sdformat.org/spec?ver=1.9.
 #include <algorithm>
 
+#include "io/base/escaped_text.h"
 #include "io/base/number_text.h"
-#include "io/base/xml_text.h"
 #include "io/scenes/scene_text.h"
 #include "io/scenes/scene_writers.h"
 #include "kernel/base/portable_math.h"

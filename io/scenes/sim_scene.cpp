@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "kernel/base/principal_axes.h"
+#include "kernel/base/inertia.h"
 
 namespace rubble {
 namespace {

@@ -2,8 +2,8 @@
 // robots/NAME.urdf. scene.json says where each begins.
 #include <algorithm>
 
+#include "io/base/escaped_text.h"
 #include "io/base/number_text.h"
-#include "io/base/xml_text.h"
 #include "io/mesh/stl_writer.h"
 #include "io/robot/urdf_writer.h"
 #include "io/scenes/scene_text.h"

@@ -1,4 +1,4 @@
-#include "io/voids/octomap_file.h"
+#include "io/voids/void_files.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "io/voids/vdb_file.h"
+#include "io/voids/void_files.h"
 
 #include <openvdb/io/Stream.h>
 

@@ -1,4 +1,4 @@
-#include "io/voids/void_json.h"
+#include "io/voids/void_files.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include "io/voids/void_picture.h"
+#include "io/voids/void_files.h"
 
 #include <algorithm>
 #include <cmath>

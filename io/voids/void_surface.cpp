@@ -1,4 +1,4 @@
-#include "io/voids/void_surface.h"
+#include "io/voids/void_files.h"
 
 #include <openvdb/tools/VolumeToMesh.h>
 

@@ -24,9 +24,13 @@ using Clock = std::chrono::steady_clock;
 constexpr double kPatience = 5e-4;
 // A thread that takes longer may have lost its processor: a time slice of Linux has 3 ms and more. unit: s
 constexpr double kLost = 1e-3;
-// Loops run in the caller alone for this time, and for twice the time before if that was not long ago: a try costs a time
-// slice. unit: s
-constexpr double kLeastAlone = 0.02, kMostAlone = 2;
+// Loops run in the caller alone for this time, and for twice the time before if they did not run together for as long in
+// between: finding out costs two time slices. unit: s
+constexpr double kLeastAlone = 0.05, kMostAlone = 2;
+// They also do while the caller loses its processor so often: it has none to itself, so others of its threads have not
+// either. An idle machine takes it a few times a second.
+constexpr double kMostPreemptions = 1;  // in kLookAfter
+constexpr double kLookAfter = 0.02;     // unit: s
 
 // How often another program took the processor from this thread; not known: 0.
 long count_preemptions() {
@@ -36,6 +40,8 @@ long count_preemptions() {
 #endif
   return 0;
 }
+
+Clock::duration seconds(double s) { return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s)); }
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
@@ -71,19 +77,35 @@ struct ThreadPool::Shared {
   std::atomic<bool> preempted{false};      // a worker, in this round
   const std::function<void(int, int)>* body = nullptr;
   int count = 0, grain = 1;
+  bool once = false;  // each worker calls body once at most
   std::atomic<int> next{0};
   std::atomic<std::uint64_t> gate{kClosed};
   std::atomic<bool> stop{false};
 
   // Of the caller.
-  Clock::time_point alone_until{}, tried_until{};
-  double alone = kLeastAlone;  // unit: s
+  Clock::time_point alone_until{}, looked{};
+  double alone = 0;  // unit: s
+  long losses = 0;  // of its processor
 
+  bool crowded() {
+    const Clock::time_point now = Clock::now();
+    if (now - looked >= seconds(kLookAfter)) look(now);
+    return now < alone_until;
+  }
+  void look(Clock::time_point now) {
+    const long before = std::exchange(losses, count_preemptions());
+    const double intervals = std::chrono::duration<double>(now - looked).count() / kLookAfter;
+    const bool first = std::exchange(looked, now) == Clock::time_point{};
+    if (!first && double(losses - before) > kMostPreemptions * intervals) alone_until = std::max(alone_until, now + seconds(kLeastAlone));
+  }
+
+  bool take_one() {
+    const int begin = next.fetch_add(grain);
+    if (begin < count) (*body)(begin, std::min(count, begin + grain));
+    return begin < count;
+  }
   void take_all() {
-    for (;;) {
-      const int begin = next.fetch_add(grain);
-      if (begin >= count) return;
-      (*body)(begin, std::min(count, begin + grain));
+    while (take_one() && !once) {
     }
   }
 
@@ -130,20 +152,14 @@ struct ThreadPool::Shared {
     }
   }
 
-  void open(int wanted, int step, const std::function<void(int, int)>& wanted_body) {
-    body = &wanted_body, count = wanted, grain = step;
-    next = 0;
+  void open(int wanted, int step, bool each_once, const std::function<void(int, int)>& wanted_body) {
+    body = &wanted_body, count = wanted, grain = step, once = each_once;
+    next = once ? 1 : 0;
     preempted = false;
     gate = (round_of(gate.load()) + 1) * kRound;
     if (sleepers == 0) return;
     { const std::lock_guard<std::mutex> lock(mutex); }
     wake.notify_all();
-  }
-
-  void run(int wanted, int step, const std::function<void(int, int)>& wanted_body) {
-    open(wanted, step, wanted_body);
-    take_all();
-    close();
   }
 
   // Returns when those that are inside have left.
@@ -163,9 +179,10 @@ struct ThreadPool::Shared {
 
   void note_crowded() {
     const Clock::time_point now = Clock::now();
-    alone = now < tried_until ? std::min(kMostAlone, 2 * alone) : kLeastAlone;
-    alone_until = now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(alone));
-    tried_until = now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(4 * alone));
+    const double together = std::chrono::duration<double>(now - alone_until).count();
+    if (together < 0) return;  // it is known
+    alone = std::clamp(together < alone ? 2 * alone : alone / 2, kLeastAlone, kMostAlone);
+    alone_until = now + seconds(alone);
   }
 };
 
@@ -187,7 +204,7 @@ ThreadPool::~ThreadPool() {
 
 int ThreadPool::threads() const { return int(shared_->workers.size()) + 1; }
 
-bool ThreadPool::crowded() const { return !shared_->workers.empty() && Clock::now() < shared_->alone_until; }
+bool ThreadPool::crowded() { return !shared_->workers.empty() && shared_->crowded(); }
 
 void ThreadPool::note_crowded() { shared_->note_crowded(); }
 
@@ -195,15 +212,18 @@ void ThreadPool::run(int count, int grain, const std::function<void(int, int)>& 
   if (count <= 0) return;
   Shared& s = *shared_;
   if (s.workers.empty() || count <= grain || crowded()) return body(0, count);
-  s.run(count, grain, body);
+  s.open(count, grain, false, body);
+  s.take_all();
+  s.close();
 }
 
-void ThreadPool::run_together(int count, const std::function<void(int)>& body) {
-  const std::function<void(int, int)> each = [&body](int begin, int end) {
-    for (int i = begin; i < end; ++i) body(i);
-  };
-  if (count <= 1) return each(0, count);
-  shared_->run(count, 1, each);
+void ThreadPool::run_with_help(int count, const std::function<void(int)>& body) {
+  Shared& s = *shared_;
+  if (s.workers.empty() || count <= 1 || crowded()) return body(0);
+  const std::function<void(int, int)> each = [&body](int i, int) { body(i); };
+  s.open(count, 1, true, each);
+  body(0);
+  s.close();
 }
 
 }  // namespace rubble

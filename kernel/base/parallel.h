@@ -23,17 +23,17 @@ class ThreadPool {
   ThreadPool& operator=(const ThreadPool&) = delete;
 
   int threads() const;
-  // Whether other programs kept a thread from its processor lately. Then loops run in the caller alone for a while, longer
-  // each time that it happens again: waiting for a thread that does not run costs more than doing its work.
-  bool crowded() const;
-  // Somebody waited for a thread of a loop that did not run.
+  // Of the caller. Whether other programs took a processor from it or from a thread that it waited for lately. Then loops run
+  // in the caller alone for a while: waiting for a thread that does not run costs more than doing its work.
+  bool crowded();
+  // The caller waited for a thread that did not run. The next while alone is longer if this happens soon again.
   void note_crowded();
   // Calls body(begin, end) for consecutive ranges of at most `grain` that cover [0, count), and
   // returns when all are done. `body` must not throw. A thread that has not begun when nothing is left is not waited for.
   void run(int count, int grain, const std::function<void(int, int)>& body);
-  // Calls body(i) for each i in [0, count) at the same time, each on a thread of its own, so that they may wait for each
-  // other. count: threads() at most. Also where the pool is crowded: ask before.
-  void run_together(int count, const std::function<void(int)>& body);
+  // Calls body(0) in the caller, and meanwhile body(i), each 0 < i < count at most once, on threads that come in time. So the
+  // caller must be able to do all alone. Who has not come when body(0) returns is not waited for.
+  void run_with_help(int count, const std::function<void(int)>& body);
 
  private:
   struct Shared;

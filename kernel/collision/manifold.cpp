@@ -15,6 +15,9 @@ constexpr float kReferencePreference = 1e-3F;
 // Points that will be closer than this count as touching; unit: m.
 constexpr float kTouchingDistance = 0.0015F;
 
+// A point that is known counts as so much deeper, and as so much farther out, when points are chosen; unit: m, 1
+constexpr float kKnownDepth = 0.0005F, kKnownReach = 1.05F;
+
 struct ClipPolygon {
   Vec3f points[Manifold::kMaxClipped];
   int count = 0;
@@ -110,19 +113,17 @@ void reduce(Manifold& m, const Vec3f& normal, int most) {
     }
     std::swap(m.points[slot], m.points[best]);
   };
+  const auto depth = [](const ManifoldPoint& p) { return (p.known ? kKnownDepth : 0) - p.predicted; };
+  const auto reach = [](const ManifoldPoint& p, float distance) { return p.known ? kKnownReach * distance : distance; };
+  move_best_to(0, depth);
   const Vec3f p0 = m.points[0].position;
-  move_best_to(1, [&](const ManifoldPoint& p) {
-    const Vec3f d = p.position - p0;
-    return dot(d, d);
-  });
+  move_best_to(1, [&](const ManifoldPoint& p) { return reach(p, norm(p.position - p0)); });
   const Vec3f side = cross(m.points[1].position - p0, normal);
-  move_best_to(2, [&](const ManifoldPoint& p) { return std::abs(dot(side, p.position - p0)); });
+  move_best_to(2, [&](const ManifoldPoint& p) { return reach(p, std::abs(dot(side, p.position - p0))); });
   // On the other side of the first edge than the third point.
   const float sign = dot(side, m.points[2].position - p0) > 0 ? -1.0F : 1.0F;
-  move_best_to(3, [&](const ManifoldPoint& p) { return sign * dot(side, p.position - p0); });
-  for (int slot = 4; slot < most; ++slot) {
-    move_best_to(slot, [](const ManifoldPoint& p) { return -p.predicted; });
-  }
+  move_best_to(3, [&](const ManifoldPoint& p) { return reach(p, sign * dot(side, p.position - p0)); });
+  for (int slot = 4; slot < most; ++slot) move_best_to(slot, depth);
   m.count = most;
 }
 

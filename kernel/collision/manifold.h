@@ -12,6 +12,7 @@ struct ManifoldPoint {
   float separation = 0;  // along the normal
   float predicted = 0;   // at the end of the step, if nothing stops it
   int retained = -1;     // the number that it had in the contact before the search; -1: found anew
+  bool known = false;    // whether the contact had it, or one near it, in the step before; see reduce()
 };
 
 struct Manifold {
@@ -26,7 +27,8 @@ void clip_faces(const PosedPart& a, const PosedPart& b, const Vec3f& offset, con
                 float margin, Manifold& manifold);
 
 // Keeps the `most` (at least 4) deepest predicted points. When more than that touch: the deepest
-// one, three that span the largest area with it, then by depth.
+// one, three that span the largest area with it, then by depth. Points that are known are preferred to others about as
+// good: a choice that changed from step to step would drop the impulses of points that carry, and stacks would shake.
 void reduce(Manifold& manifold, const Vec3f& normal, int most);
 
 }  // namespace rubble

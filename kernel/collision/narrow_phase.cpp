@@ -154,6 +154,21 @@ void keep_some(std::vector<ManifoldPoint>& found, Manifold& m) {
   for (int i = 0; i < kLowest; ++i) m.points[m.count++] = found[std::size_t(i)];
 }
 
+// Whether the contact had each point in the step before, as store() finds them again.
+void note_known(const Contact& contact, const PosedBody& a, const PosedBody* b, const Vec3f& offset, const Vec3f& normal,
+                Manifold& m) {
+  if (m.count <= Contact::kMaxPoints || contact.count == 0 || dot(normal, contact.normal) <= kKeepCosine) return;
+  const Mat3f a_from_world = a.part.rotation->transposed();
+  const Mat3f b_from_world = b != nullptr ? b->part.rotation->transposed() : Mat3f::identity();
+  for (int i = 0; i < m.count; ++i) {
+    const Vec3f local_a = a_from_world * m.points[i].position, local_b = b_from_world * (m.points[i].position - offset);
+    m.points[i].known = std::any_of(contact.points.begin(), contact.points.begin() + contact.count, [&](const ContactPoint& p) {
+      const Vec3f da = p.local_a - local_a, db = p.local_b - local_b;
+      return std::min(dot(da, da), dot(db, db)) < kMatchDistance * kMatchDistance;
+    });
+  }
+}
+
 // Writes the manifold into the contact and hands over impulses from the points found again.
 void store(Contact& contact, const Manifold& m, const Vec3f& normal, const PosedBody& a,
            const PosedBody* b, const Vec3f& offset) {
@@ -219,6 +234,7 @@ void make_points(Contact& contact, const PosedBody& a, const PosedBody& b, const
     contact.has_normal = true;
     return clear_points(contact);
   }
+  note_known(contact, a, &b, offset, axis.normal, m);
   reduce(m, axis.normal, Contact::kMaxPoints);
   store(contact, m, axis.normal, a, &b, offset);
 }
@@ -237,9 +253,11 @@ void clear_points(Contact& contact) {
   contact.pressed = 0;
 }
 
-void store_points(Contact& contact, const Manifold& manifold, const Vec3f& normal,
-                  const PosedBody& a) {
-  store(contact, manifold, normal, a, nullptr, Vec3f(-a.centre));
+void store_points(Contact& contact, Manifold& manifold, const Vec3f& normal, const PosedBody& a) {
+  const Vec3f offset = Vec3f(-a.centre);
+  note_known(contact, a, nullptr, offset, normal, manifold);
+  reduce(manifold, normal, Contact::kMaxPoints);
+  store(contact, manifold, normal, a, nullptr, offset);
 }
 
 void follow_contact(Contact& contact, const PosedBody& a, const PosedBody& b) {
@@ -298,7 +316,6 @@ void update_ground_contact(Contact& contact, const PosedBody& a, float margin,
   Manifold& m = begin_manifold();
   keep_some(found, m);
   if (contact.rolls_a) carry_below_axis(m, normal, a.angular, {});
-  reduce(m, normal, Contact::kMaxPoints);
   store_points(contact, m, normal, a);
 }
 

@@ -30,8 +30,7 @@ void clear_points(Contact& contact);
 
 struct Manifold;
 // Writes points against something immovable into the contact; those found again keep their impulses.
-void store_points(Contact& contact, const Manifold& manifold, const Vec3f& normal,
-                  const PosedBody& a);
+void store_points(Contact& contact, Manifold& manifold, const Vec3f& normal, const PosedBody& a);
 
 // Finds normal and points anew, and carries over the impulses of points found again. No points:
 // the parts are farther apart than they can come in this step; then returns a distance that they

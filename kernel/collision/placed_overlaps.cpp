@@ -57,19 +57,19 @@ double calc_depth(const PosedPiece& a, double scale_a, const PosedPiece& b, doub
 
 }  // namespace
 
-std::vector<PlacedOverlap> find_placed_overlaps(const std::vector<PieceType>& types,
-                                                const std::vector<Placement>& placed, double least) {
+std::vector<PlacedOverlap> find_placed_overlaps(const std::vector<PieceType>& types, const std::vector<Placement>& placed,
+                                                std::size_t own, double least) {
   std::map<int, Shape> shapes;
   std::vector<PosedPiece> pieces;
   for (std::size_t i = 0; i < placed.size(); ++i) {
-    const int type = placed[i].type;
-    if (type >= int(types.size()) || types[std::size_t(type)].surface) continue;
+    const int type = placed[i].kind.index;
+    if (placed[i].kind.is_assembly || types[std::size_t(type)].surface) continue;
     const auto [shape, is_new] = shapes.try_emplace(type);
     if (is_new) shape->second = compile_shape(types[std::size_t(type)], types[std::size_t(type)].name);
     pieces.push_back(pose(int(i), placed[i], shape->second));
   }
   std::vector<PlacedOverlap> overlaps;
-  for (std::size_t i = 0; i < pieces.size(); ++i)
+  for (std::size_t i = 0; i < pieces.size() && std::size_t(pieces[i].index) < own; ++i)
     for (std::size_t k = i + 1; k < pieces.size(); ++k) {
       const PosedPiece &a = pieces[i], &b = pieces[k];
       if (!are_near(a.box, b.box, least)) continue;

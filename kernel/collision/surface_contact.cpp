@@ -134,7 +134,6 @@ void update_surface_contacts(Contact* const (&slots)[kSurfaceSlots], const Posed
     Contact& contact = *slots[slot_of[i]];
     contact.rolls_a = rolls(a, normal, settings.step);
     if (contact.rolls_a) carry_below_axis(clusters[i].manifold, normal, a.angular, {});
-    reduce(clusters[i].manifold, normal, Contact::kMaxPoints);
     store_points(contact, clusters[i].manifold, normal, a);
   }
 }

@@ -1,4 +1,4 @@
-#include "kernel/fines/dust_drifts.h"
+#include "kernel/fines/grains.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "kernel/base/parallel.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/fines/resting.h"
-#include "kernel/geometry/fine_heaps.h"
+#include "kernel/geometry/fine_shapes.h"
 
 namespace rubble {
 namespace {

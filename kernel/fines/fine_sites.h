@@ -2,8 +2,11 @@
 // counts as much as one under the sky. Each site is weighted by its area seen from above.
 #pragma once
 
+#include <cstdint>
+#include <unordered_map>
 #include <vector>
 
+#include "kernel/base/math.h"
 #include "kernel/fines/strew_fines.h"
 #include "kernel/queries/queries.h"
 
@@ -39,5 +42,22 @@ class FinePatches {
   };
   std::vector<Wave> waves_;
 };
+
+// Which room is taken by fines already, so that they do not lie in each other.
+class RoomForFines {
+ public:
+  // Takes the room of a ball where no other is nearer than kFineCloseness of their radii together; false and
+  // nothing taken otherwise.
+  bool take(const Vec3& centre, double radius);
+
+ private:
+  struct Ball {
+    Vec3 centre;
+    double radius;
+  };
+  std::unordered_map<std::uint64_t, std::vector<Ball>> cells_;  // asked, never walked
+};
+
+inline constexpr double kFineCloseness = 0.75;
 
 }  // namespace rubble

@@ -7,7 +7,7 @@
 #include "kernel/base/parallel.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/fines/resting.h"
-#include "kernel/geometry/fine_heaps.h"
+#include "kernel/geometry/fine_shapes.h"
 
 namespace rubble {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "kernel/fines/fine_sites.h"
 #include "kernel/fines/fine_surfaces.h"
-#include "kernel/fines/room_for_fines.h"
 
 namespace rubble {
 
@@ -34,5 +33,14 @@ std::array<int, 5> share_amount(const FinesSpec& spec);
 
 // How readily fines gather at a site. 0: never.
 double calc_site_weight(const FineSite& site, const FinePatches& patches);
+
+// Sheets of paper, whole and torn, with corners that curl; and cloth that drapes over what it fell on.
+// kind: paper or cloth. As many as asked for, or as many as there is room for.
+void drop_sheets(const GrainGround& ground, FineKind kind, int count, RoomForFines& room,
+                 std::vector<FineSheet>& sheets);
+
+// Low mounds of dust and the finest debris: at the foot of walls and in corners, and a few on open floors.
+// As many as asked for, or as many as there is room for.
+void heap_drifts(const GrainGround& ground, int count, std::vector<FineSheet>& sheets);
 
 }  // namespace rubble

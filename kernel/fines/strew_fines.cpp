@@ -2,11 +2,9 @@
 
 #include <algorithm>
 
-#include "kernel/fines/dust_drifts.h"
 #include "kernel/fines/grains.h"
-#include "kernel/fines/soft_sheets.h"
 #include "kernel/fines/strands.h"
-#include "kernel/geometry/fine_heaps.h"
+#include "kernel/geometry/fine_shapes.h"
 
 namespace rubble {
 namespace {

@@ -7,8 +7,7 @@
 #include <stdexcept>
 
 #include "kernel/base/error.h"
-#include "kernel/geometry/decomposing/decompose_cells.h"
-#include "kernel/geometry/decomposing/decompose_exact.h"
+#include "kernel/geometry/decomposing/decompose_steps.h"
 #include "kernel/geometry/decomposing/solid.h"
 #include "kernel/geometry/hull.h"
 #include "kernel/geometry/simplify_hull.h"

@@ -7,6 +7,7 @@
 
 #include "kernel/base/math.h"
 #include "kernel/model/fines.h"
+#include "kernel/model/pile_state.h"
 
 namespace rubble {
 
@@ -39,5 +40,17 @@ struct FineBase {
   double distance = 0;       // from its origin; unit: as `half`
 };
 FineBase find_base(const FineShape& shape, const Vec3f& half);
+
+// Fines as meshes: all of one kind that lie on one piece, or on the ground, within one cell.
+
+// Edge of a cell in the frame of the host; unit: m. A heap is drawn or left out as a whole, and has one
+// number.
+inline constexpr double kFineCell = 1.0;
+
+// Makes what Fines::heaps() returns.
+void heap_fines(Fines& fines);
+
+// Of the frame that a heap's or a fine piece's host has.
+Pose world_from_host(const PileState& pile, int host);
 
 }  // namespace rubble

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "kernel/base/error.h"
+#include "kernel/model/range_check.h"
 
 namespace rubble {
 namespace {
@@ -79,21 +79,16 @@ class Maker {
 }  // namespace
 
 void HeightField::validate(const char* key) const {
-  std::vector<Diagnostic> problems;
-  const auto expect = [&](bool fine, const char* name, const char* expected, double found) {
-    if (fine) return;
-    problems.push_back({"", 0, std::string(key) + name, "out of range", expected,
-                        std::to_string(found), ""});
-  };
-  expect(columns >= 2 && columns <= 1024, ".columns", "2 to 1024", columns);
-  expect(rows >= 2 && rows <= 1024, ".rows", "2 to 1024", rows);
-  expect(spacing >= 0.01 && spacing <= 100, ".spacing", "0.01 to 100 m", spacing);
-  expect(heights.size() == std::size_t(std::max(0, columns)) * std::size_t(std::max(0, rows)),
-         ".heights", "columns * rows of them", double(heights.size()));
-  expect(std::all_of(heights.begin(), heights.end(),
-                     [](double h) { return std::isfinite(h) && std::abs(h) <= 1000; }),
-         ".heights", "numbers between -1000 and 1000", double(heights.size()));
-  if (!problems.empty()) throw InputError(problems);
+  RangeCheck check(key);
+  check.expect(columns >= 2 && columns <= 1024, ".columns", "2 to 1024", columns);
+  check.expect(rows >= 2 && rows <= 1024, ".rows", "2 to 1024", rows);
+  check.expect(spacing >= 0.01 && spacing <= 100, ".spacing", "0.01 to 100 m", spacing);
+  check.expect(heights.size() == std::size_t(std::max(0, columns)) * std::size_t(std::max(0, rows)),
+               ".heights", "columns * rows of them", double(heights.size()));
+  check.expect(std::all_of(heights.begin(), heights.end(),
+                           [](double h) { return std::isfinite(h) && std::abs(h) <= 1000; }),
+               ".heights", "numbers between -1000 and 1000", double(heights.size()));
+  check.finish();
 }
 
 TriangleMesh make_height_field_mesh(const HeightField& field, double depth,

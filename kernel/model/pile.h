@@ -43,9 +43,36 @@ struct PieceType {
   double friction = 0.8;  // Coulomb, against concrete; a pair has the geometric mean; range: 0 to 2
 };
 
-// How often a type is drawn and how large.
+// What is placed or drawn: a type, or an assembly of types, by its index in the pile's list of them.
+struct PieceKind {
+  constexpr PieceKind(int type = 0) : index(type) {}
+  static constexpr PieceKind assembly(int index);
+  int index;
+  bool is_assembly = false;
+};
+constexpr PieceKind PieceKind::assembly(int index) {
+  PieceKind kind(index);
+  kind.is_assembly = true;
+  return kind;
+}
+constexpr bool operator==(PieceKind a, PieceKind b) { return a.index == b.index && a.is_assembly == b.is_assembly; }
+constexpr bool operator!=(PieceKind a, PieceKind b) { return !(a == b); }
+
+// What there is of each kind: shapes, boxes.
+template <typename T>
+struct ByKind {
+  std::vector<T> types, assemblies;
+  const T& operator[](PieceKind kind) const {
+    return (kind.is_assembly ? assemblies : types)[std::size_t(kind.index)];
+  }
+  bool has(PieceKind kind) const {
+    return kind.index >= 0 && std::size_t(kind.index) < (kind.is_assembly ? assemblies : types).size();
+  }
+};
+
+// How often a kind is drawn and how large.
 struct MixEntry {
-  int type = 0;               // index of a type, or number of types plus index of an assembly
+  PieceKind kind;
   double weight = 1;          // relative; >= 0
   double scale_min = 1;       // from scale_min to scale_max; range: 0.01 to 100
   double scale_max = 1;       // range: scale_min and up, to 100
@@ -53,7 +80,7 @@ struct MixEntry {
 };
 
 struct Placement {
-  int type = 0;          // as in MixEntry
+  PieceKind kind;
   double scale = 1;  // of the type's or the assembly's lengths; range: 0.01 to 100
   Pose world_from_body;  // body: the frame of the type's parts (not the centre of mass) or of the
                          // assembly
@@ -69,7 +96,7 @@ struct SpawnDensity {
 
 // Pieces that stand on every floor of a building.
 struct Furnishing {
-  int type = 0;        // as in MixEntry
+  PieceKind kind;
   double per_bay = 1;  // mean number in each bay of each floor; range: 0 to 20
   bool roof = false;   // also on the roof
 };
@@ -77,8 +104,8 @@ struct Furnishing {
 // Where and how much to drop.
 struct PileSpec {
   std::uint64_t seed = 0;                // of all random draws
-  std::vector<PieceType> types;          // indexed by MixEntry::type and Placement::type
-  std::vector<AssemblyType> assemblies;  // indexed after the types
+  std::vector<PieceType> types;          // indexed by PieceKind, as the assemblies are
+  std::vector<AssemblyType> assemblies;
   std::vector<MixEntry> mix;             // source of the layers; not empty if there are layers
   std::vector<Placement> placed;         // pieces that are there before the first layer
   Vec3 spawn_position{0, 0, 4.5};        // centre of the spawn box; unit: m

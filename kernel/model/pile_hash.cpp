@@ -28,10 +28,11 @@ void add(StateHash& hash, const PieceType& type) {
   }
 }
 
-void add(StateHash& hash, const std::vector<Placement>& placements) {
+// types: of the pile; the number of an assembly follows theirs.
+void add(StateHash& hash, const std::vector<Placement>& placements, std::size_t types) {
   add_count(hash, placements.size());
   for (const Placement& placement : placements) {
-    hash.add(std::int32_t(placement.type));
+    hash.add(std::int32_t(placement.kind.index + (placement.kind.is_assembly ? int(types) : 0)));
     hash.add(placement.scale);
     add(hash, placement.world_from_body);
     hash.add(std::uint8_t(placement.fixed));
@@ -134,9 +135,9 @@ std::uint64_t hash_types(const std::vector<PieceType>& types,
 std::uint64_t hash_pile(const Pile& pile) {
   StateHash hash;
   add(hash, pile.types);
-  add(hash, pile.placed);
+  add(hash, pile.placed, pile.types.size());
   add_count(hash, pile.layers.size());
-  for (const Layer& layer : pile.layers) add(hash, layer.pieces);
+  for (const Layer& layer : pile.layers) add(hash, layer.pieces, pile.types.size());
   hash.add(pile.spawn_bottom);
   if (!pile.assemblies.empty()) add(hash, pile.assemblies);
   if (pile.building.given()) add(hash, pile.building), hash.add(std::int32_t(pile.building_first_type));

@@ -1,5 +1,7 @@
 #include "kernel/model/pile_state.h"
 
+#include <stdexcept>
+
 #include "kernel/base/hash_pose.h"
 
 namespace rubble {
@@ -31,6 +33,25 @@ std::uint64_t PileState::state_hash() const {
   for (const JointState& joint : joints) add(hash, joint);
   hash.add(steps);
   return hash.digest();
+}
+
+const std::array<std::string, kFineKinds>& fine_names() {
+  static const std::array<std::string, kFineKinds> names{"grit",  "plaster", "glass", "paper",
+                                                         "cloth", "dust",    "cable", "pipe"};
+  return names;
+}
+
+const std::vector<FineHeap>& Fines::heaps() const {
+  static const std::vector<FineHeap> none;
+  if (!gathered && !empty()) throw std::logic_error("fines without heaps: heap_fines() makes them");
+  return gathered ? *gathered : none;
+}
+
+const std::array<std::string, kSurroundingKinds>& surrounding_names() {
+  static const std::array<std::string, kSurroundingKinds> names{
+      "road", "kerb",    "pavement",    "soil",   "building", "tree",
+      "fence", "vehicle", "street_lamp", "puddle", "skyline"};
+  return names;
 }
 
 }  // namespace rubble

@@ -20,11 +20,11 @@ std::vector<Instance> list_instances(const Pile& pile, const BuildingState& buil
   pieces = 0;
   const auto add = [&](const std::vector<Placement>& placements) {
     for (const Placement& p : placements) {
-      if (p.type < int(pile.types.size())) {
+      if (!p.kind.is_assembly) {
         ++pieces;
         continue;
       }
-      const AssemblyType& assembly = pile.assemblies[std::size_t(p.type) - pile.types.size()];
+      const AssemblyType& assembly = pile.assemblies[std::size_t(p.kind.index)];
       instances.push_back({&assembly, pieces, p.scale});
       pieces += int(assembly.links.size());
     }

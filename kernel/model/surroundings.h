@@ -4,7 +4,7 @@
 //   SurroundingsSpec + seed + the circle of the pile --make_surroundings--> Surroundings
 //
 // Surroundings are true geometry: they are drawn, labelled and exported, count in queries, and are felt by robots
-// (solid_surface.h). The pile settles without them.
+// (make_surroundings.h). The pile settles without them.
 #pragma once
 
 #include <array>

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "kernel/multibody/tree_pose.h"
+#include "kernel/multibody/tree.h"
 
 namespace rubble {
 

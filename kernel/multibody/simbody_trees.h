@@ -14,7 +14,6 @@
 
 #include "kernel/collision/body.h"
 #include "kernel/multibody/tree.h"
-#include "kernel/multibody/tree_pose.h"
 
 namespace rubble {
 

@@ -18,6 +18,7 @@
 
 #include "kernel/base/math.h"
 #include "kernel/model/assembly.h"
+#include "kernel/multibody/spatial.h"
 
 namespace rubble {
 
@@ -83,7 +84,7 @@ struct TreeLink {
   double stiffness = 0, damping = 0, friction = 0, yield = kNever;
   double break_force = kNever, break_torque = kNever;  // unit: N, N m
   double lower = -kNever, upper = kNever;              // of the coordinate; unit: rad, slider m
-  // A hinge of an inflated tube: its spring wrinkles from this moment on (inflated_bend.h), which it shares
+  // A hinge of an inflated tube: its spring wrinkles from this moment on (tree_springs.h), which it shares
   // with another hinge of equal stiffness that bends the other way; -1: none. unit: N m
   double wrinkling = kNever;
   std::int32_t wrinkles_with = -1;
@@ -135,5 +136,39 @@ struct TreeState {
 
 // Numbers the coordinates of the links.
 void number_coordinates(Tree& tree);
+
+// Pose of a tree in world axes, as Simbody computes it from its coordinates. All other files of this folder use it.
+// Spatial vectors are about `reference`, a point near the tree, so that no digits are lost far from the world's origin.
+
+struct LinkPose {
+  double mass = 0;  // 0: immovable; unit: kg
+  Vec3 centre;      // of mass, from the reference; unit: m
+  Mat3 inertia;     // about the centre of mass, world axes; unit: kg m2
+
+  // Momentum of a motion.
+  Spatial momentum(const Spatial& motion) const {
+    const Vec3 w = motion.angular();
+    const Vec3 p = (motion.linear() + cross(w, centre)) * mass;
+    return {inertia * w + cross(centre, p), p};
+  }
+  Vec3 centre_velocity(const Spatial& motion) const {
+    return motion.linear() + cross(motion.angular(), centre);
+  }
+};
+
+struct TreePose {
+  Vec3 reference;               // of a free tree: the root's centre of mass; unit: m
+  std::vector<LinkPose> links;  // in the order of Tree::links
+  // By speed, of links with a parent: the motion that a unit of the speed gives to the link (a
+  // column of Simbody's hinge matrix H), and what a motion of the link against its parent is
+  // multiplied by to give the speed.
+  std::vector<Spatial> axes, duals;
+};
+
+// By link, of the speeds of a tree and back.
+void calc_motions(const Tree& tree, const TreePose& pose, const std::vector<double>& u,
+                  std::vector<Spatial>& motions);
+void calc_speeds(const Tree& tree, const TreePose& pose, const std::vector<Spatial>& motions,
+                 std::vector<double>& u);
 
 }  // namespace rubble

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "kernel/geometry/fine_heaps.h"
+#include "kernel/geometry/fine_shapes.h"
 #include "kernel/geometry/shape.h"
 #include "kernel/queries/query_tree.h"
 

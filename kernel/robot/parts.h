@@ -27,4 +27,10 @@ ConvexPart make_rings(const std::vector<Ring>& rings, int facets);
 // Centre of mass and inertia of the parts, of even density, for a link of that mass.
 void set_mass(double mass, RobotLink& link);
 
+// Visual meshes of the bundled robots.
+// The link's looks, or where it has none its collision parts in that surface's name.
+TriangleMesh make_link_mesh(const RobotLink& link, const std::string& surface);
+// Surfaces of the bundled robots: rubber where a belt runs and on wheels, paint or metal elsewhere.
+std::string choose_link_surface(const RobotModel& model, std::size_t link);
+
 }  // namespace rubble

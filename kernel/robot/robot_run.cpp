@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "kernel/base/error.h"
-#include "kernel/surroundings/solid_surface.h"
+#include "kernel/surroundings/make_surroundings.h"
 #include "kernel/world/world_robots.h"
 
 namespace rubble {

@@ -5,7 +5,7 @@
 
 #include "kernel/base/portable_math.h"
 #include "kernel/structure/building.h"
-#include "kernel/structure/standing.h"
+#include "kernel/structure/failure.h"
 #include "kernel/world/world_structures.h"
 
 namespace rubble {

@@ -4,7 +4,7 @@
 
 #include "kernel/base/inertia.h"
 #include "kernel/settling/collapse_impl.h"
-#include "kernel/structure/remaining_bars.h"
+#include "kernel/structure/failure.h"
 #include "kernel/world/world_structures.h"
 
 namespace rubble {
@@ -24,7 +24,7 @@ Collapse::Impl::Impl(World& w, const Structure& s, int first_type, const Collaps
   std::vector<NewPiece> pieces;
   for (const StructurePiece& piece : s.pieces) {
     NewPiece p;
-    p.placement.type = first_type + piece.type;
+    p.placement.kind = first_type + piece.type;
     p.placement.world_from_body.translation = piece.position;
     p.placement.fixed = true;
     p.layer = -1;

@@ -65,7 +65,7 @@ struct Collapse::Impl {
   int lead_in_world(int piece) const;
   void set_motion(int piece, const Vec3& gained, const Vec3& angular);
 
-  // collapse_loads.cpp
+  // collapse.cpp: loads
   std::vector<PieceLoad> calc_loads(std::int32_t lead, const Part& part, const Touches& touches,
                                     bool with_impacts) const;
   bool is_news(const Part& part, const std::vector<PieceLoad>& loads) const;

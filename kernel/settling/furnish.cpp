@@ -30,7 +30,7 @@ struct Footprint {
 
 class Furnisher {
  public:
-  Furnisher(const PileSpec& spec, const std::vector<Aabb>& bounds)
+  Furnisher(const PileSpec& spec, const ByKind<Aabb>& bounds)
       : b_(spec.building), spec_(spec), bounds_(bounds), random_(spec.seed, "furniture") {
     if (!b_.plain()) members_ = list_members(b_);
   }
@@ -114,7 +114,7 @@ class Furnisher {
   void place(const Furnishing& item, const Footprint& room, double z) {
     for (int t = 0; t < kTries; ++t) {
       const double yaw = (90 * double(random_.below(4)) + kTurn * random_.normal()) * portable::kPi / 180;
-      const Aabb& e = bounds_[item.type];
+      const Aabb& e = bounds_[item.kind];
       const Quat turned = portable::quat_from_rpy(0, 0, yaw);
       Aabb turned_bounds;
       for (const double x : {e.min.x, e.max.x}) {
@@ -135,7 +135,7 @@ class Furnisher {
       if (b_.planned() && z > 2 * kLift && !is_on_floor(print)) continue;
       taken_.push_back(print);
       Placement placement;
-      placement.type = item.type;
+      placement.kind = item.kind;
       placement.world_from_body = {turned, {print.x0 - low.x, print.y0 - low.y, z - e.min.z}};
       placed_.push_back(placement);
       return;
@@ -146,7 +146,7 @@ class Furnisher {
     const double storey = b_.planned() ? *std::min_element(b_.plan.heights.begin(), b_.plan.heights.end()) : b_.storey_height;
     const double height = storey - b_.beam_depth - kClearance;
     for (std::size_t i = 0; i < spec_.furniture.size(); ++i) {
-      const Aabb& e = bounds_[spec_.furniture[i].type];
+      const Aabb& e = bounds_[spec_.furniture[i].kind];
       const Vec3 size = e.max - e.min;
       const double clear = b_.column + 2 * kClearance;
       const double span_y = b_.kind == BuildingKind::bridge ? b_.bays_y * b_.span_y : b_.span_y;
@@ -169,7 +169,7 @@ class Furnisher {
 
   const BuildingSpec& b_;
   const PileSpec& spec_;
-  const std::vector<Aabb>& bounds_;
+  const ByKind<Aabb>& bounds_;
   RandomStream random_;
   std::vector<Member> members_;   // of other buildings than plain frames
   std::vector<Footprint> floors_;  // of a plan
@@ -187,7 +187,7 @@ Aabb calc_bounds(const PieceType& type) {
   return bounds;
 }
 
-std::vector<Placement> furnish(const PileSpec& spec, const std::vector<Aabb>& bounds) {
+std::vector<Placement> furnish(const PileSpec& spec, const ByKind<Aabb>& bounds) {
   if (spec.furniture.empty() || !spec.building.given()) return {};
   return Furnisher(spec, bounds).furnish();
 }

@@ -47,13 +47,16 @@ class SpecCheck {
 
 void validate(const PileSpec& spec) {
   SpecCheck check;
-  const int types = int(spec.types.size() + spec.assemblies.size());
-  const std::string type_range = "0 to " + std::to_string(types - 1);
+  const auto expect_kind = [&](PieceKind kind, const std::string& key) {
+    const std::size_t count = kind.is_assembly ? spec.assemblies.size() : spec.types.size();
+    check.expect(kind.index >= 0 && std::size_t(kind.index) < count, key + (kind.is_assembly ? ".assembly" : ".type"),
+                 "0 to " + std::to_string(std::int64_t(count) - 1), std::to_string(kind.index));
+  };
   double total = 0;
   for (std::size_t i = 0; i < spec.mix.size(); ++i) {
     const MixEntry& e = spec.mix[i];
     const std::string key = "mix[" + std::to_string(i) + "]";
-    check.expect(e.type >= 0 && e.type < types, key + ".type", type_range, std::to_string(e.type));
+    expect_kind(e.kind, key);
     check.expect(e.weight >= 0 && std::isfinite(e.weight), key + ".weight", "0 or more", e.weight);
     check.expect(e.scale_min >= 0.01 && e.scale_min <= e.scale_max, key + ".scale_min",
                  "0.01 to scale_max", e.scale_min);
@@ -67,13 +70,13 @@ void validate(const PileSpec& spec) {
   for (std::size_t i = 0; i < spec.placed.size(); ++i) {
     const Placement& p = spec.placed[i];
     const std::string key = "placed[" + std::to_string(i) + "]";
-    check.expect(p.type >= 0 && p.type < types, key + ".type", type_range, std::to_string(p.type));
+    expect_kind(p.kind, key);
     check.expect(p.scale >= 0.01 && p.scale <= 100, key + ".scale", "0.01 to 100", p.scale);
   }
   for (std::size_t i = 0; i < spec.furniture.size(); ++i) {
     const Furnishing& f = spec.furniture[i];
     const std::string key = "furniture[" + std::to_string(i) + "]";
-    check.expect(f.type >= 0 && f.type < types, key + ".type", type_range, std::to_string(f.type));
+    expect_kind(f.kind, key);
     check.expect(f.per_bay >= 0 && f.per_bay <= 20, key + ".per_bay", "0 to 20", f.per_bay);
   }
   check.expect(spec.layers >= 0 && spec.layers <= 1000, "layers", "0 to 1000",
@@ -111,11 +114,11 @@ void validate(const PileSpec& spec) {
 
 class LayerMaker {
  public:
-  LayerMaker(const PileSpec& spec, const std::vector<Shape>& shapes)
+  LayerMaker(const PileSpec& spec, const ByKind<Shape>& shapes)
       : spec_(spec), shapes_(shapes), random_(spec.seed, "pile") {
     if (!spec.spawn_density.weights.empty()) density_.emplace(spec.spawn_density.weights);
     for (const MixEntry& e : spec.mix) {
-      if (e.weight > 0) largest_ = std::max(largest_, double(shapes[e.type].radius) * e.scale_max);
+      if (e.weight > 0) largest_ = std::max(largest_, double(shapes[e.kind].radius) * e.scale_max);
     }
   }
 
@@ -128,7 +131,7 @@ class LayerMaker {
     for (int i = 0; i < spec_.pieces_per_layer; ++i) {
       const MixEntry& entry = spec_.mix[choice.draw(random_)];
       Placement piece;
-      piece.type = entry.type;
+      piece.kind = entry.kind;
       piece.scale = draw_size(entry.spread, entry.scale_min, entry.scale_max, random_);
       if (!find_place(space, piece)) fail_full(spec_, number, i);
       space.add(piece);
@@ -140,7 +143,7 @@ class LayerMaker {
  private:
   // Centres of mass lie inside the box's footprint; no piece reaches below its bottom.
   bool find_place(const LayerSpace& space, Placement& piece) {
-    const Shape& shape = shapes_[piece.type];
+    const Shape& shape = shapes_[piece.kind];
     const double radius = double(shape.radius) * piece.scale;
     const Vec3 half = spec_.spawn_bounds * 0.5;
     const double highest = std::max(radius, spec_.spawn_bounds.z - radius);
@@ -171,20 +174,21 @@ class LayerMaker {
   }
 
   const PileSpec& spec_;
-  const std::vector<Shape>& shapes_;
+  const ByKind<Shape>& shapes_;
   std::optional<WeightedChoice> density_;
   RandomStream random_;
   double largest_ = 0.01;
 };
 
 // What lies highest of the terrain under the spawn box, and the clearance above it.
-double lowest_spawn(const PileSpec& spec, const std::vector<Shape>& shapes) {
+double lowest_spawn(const PileSpec& spec, const ByKind<Shape>& shapes) {
   double top = -1e300;
   const Vec3 half = spec.spawn_bounds * 0.5;
   for (const Placement& placement : spec.placed) {
-    if (placement.type >= int(spec.types.size()) || !shapes[placement.type].surface) continue;
+    const Shape& shape = shapes[placement.kind];
+    if (!shape.surface) continue;
     const Pose& pose = placement.world_from_body;
-    for (const Vec3& corner : shapes[placement.type].surface->corners()) {
+    for (const Vec3& corner : shape.surface->corners()) {
       const Vec3 p = pose * (corner * placement.scale);
       const Vec3 from_middle = p - spec.spawn_position;
       const double margin = kTerrainMargin;
@@ -201,18 +205,18 @@ double lowest_spawn(const PileSpec& spec, const std::vector<Shape>& shapes) {
 
 Pile generate_pile(const PileSpec& spec) {
   validate(spec);
-  std::vector<Shape> shapes;
-  std::vector<Aabb> bounds;
+  ByKind<Shape> shapes;
+  ByKind<Aabb> bounds;
   for (std::size_t i = 0; i < spec.types.size(); ++i) {
-    shapes.push_back(compile_shape(spec.types[i], "types[" + std::to_string(i) + "]"));
-    bounds.push_back(calc_bounds(spec.types[i]));
+    shapes.types.push_back(compile_shape(spec.types[i], "types[" + std::to_string(i) + "]"));
+    bounds.types.push_back(calc_bounds(spec.types[i]));
   }
   for (std::size_t i = 0; i < spec.assemblies.size(); ++i) {  // they take room as one rigid piece
     const std::string key = "assemblies[" + std::to_string(i) + "]";
     validate(spec.assemblies[i], int(spec.types.size()), key);
     const PieceType rigid = make_rigid_type(spec.assemblies[i], spec.types);
-    shapes.push_back(compile_shape(rigid, key));
-    bounds.push_back(calc_bounds(rigid));
+    shapes.assemblies.push_back(compile_shape(rigid, key));
+    bounds.assemblies.push_back(calc_bounds(rigid));
   }
   Pile pile;
   pile.types = spec.types;

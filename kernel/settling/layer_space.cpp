@@ -11,11 +11,11 @@ constexpr float kSpawnGap = 0.01f;  // pieces of a layer start at least so far a
 
 }  // namespace
 
-LayerSpace::LayerSpace(const std::vector<Shape>& shapes, double largest_radius)
+LayerSpace::LayerSpace(const ByKind<Shape>& shapes, double largest_radius)
     : shapes_(shapes), cell_size_(2 * largest_radius + kSpawnGap) {}
 
 LayerSpace::Body LayerSpace::turn(const Placement& placement, bool with_parts) const {
-  const Shape& shape = shapes_[std::size_t(placement.type)];
+  const Shape& shape = shapes_[placement.kind];
   const Pose& pose = placement.world_from_body;
   Body body;
   body.centre = pose * (shape.volume.centre_of_mass * placement.scale);

@@ -13,7 +13,7 @@ namespace rubble {
 class LayerSpace {
  public:
   // largest_radius: of any piece's bounding sphere, scale included; unit: m; > 0.
-  LayerSpace(const std::vector<Shape>& shapes, double largest_radius);
+  LayerSpace(const ByKind<Shape>& shapes, double largest_radius);
 
   // True when the convex parts keep at least 1 cm away from those of every piece added so far.
   bool is_free(const Placement& placement) const;
@@ -32,7 +32,7 @@ class LayerSpace {
   Cell cell_of(const Vec3& point) const;
   static bool are_apart(const Body& a, const Body& b);
 
-  const std::vector<Shape>& shapes_;
+  const ByKind<Shape>& shapes_;
   double cell_size_;
   std::map<Cell, std::vector<Body>> bodies_;
 };

@@ -5,6 +5,9 @@
 #include <string>
 
 #include "kernel/base/error.h"
+#include "kernel/base/hash.h"
+#include "kernel/model/pile_hash.h"
+#include "kernel/model/range_check.h"
 #include "kernel/settling/building_collapse.h"
 #include "kernel/world/world.h"
 #include "kernel/world/world_diagnostics.h"
@@ -228,27 +231,18 @@ void check_checkpoint(const SettleCheckpoint& checkpoint, const Pile& pile,
 }  // namespace
 
 void SettleOptions::validate() const {
-  std::vector<Diagnostic> problems;
-  const auto expect = [&problems](bool fine, const char* key, const char* expected, double found) {
-    if (fine) return;
-    Diagnostic d;
-    d.key = key;
-    d.message = "out of range";
-    d.expected = expected;
-    d.found = std::to_string(found);
-    problems.push_back(d);
-  };
-  expect(gravity >= 0 && gravity <= 100, "gravity", "0 to 100 m/s2", gravity);
-  expect(step >= 1e-3 && step <= 1.0 / 30 + 1e-12, "step", "1/1000 to 1/30 s", step);
-  expect(rest_speed > 0, "rest_speed", "more than 0 m/s", rest_speed);
-  expect(rest_angular_speed > 0, "rest_angular_speed", "more than 0 rad/s", rest_angular_speed);
-  expect(rest_overlap > 0, "rest_overlap", "more than 0 m", rest_overlap);
-  expect(layer_time_limit > 0, "layer_time_limit", "more than 0 s", layer_time_limit);
-  expect(final_time_limit > 0, "final_time_limit", "more than 0 s", final_time_limit);
-  expect(lost_below <= 0, "lost_below", "0 m or less", lost_below);
-  expect(lost_beyond > 0, "lost_beyond", "more than 0 m", lost_beyond);
-  expect(threads >= 0 && threads <= 1024, "threads", "0 to 1024", threads);
-  if (!problems.empty()) throw InputError(problems);
+  RangeCheck check("");
+  check.expect(gravity >= 0 && gravity <= 100, "gravity", "0 to 100 m/s2", gravity);
+  check.expect(step >= 1e-3 && step <= 1.0 / 30 + 1e-12, "step", "1/1000 to 1/30 s", step);
+  check.expect(rest_speed > 0, "rest_speed", "more than 0 m/s", rest_speed);
+  check.expect(rest_angular_speed > 0, "rest_angular_speed", "more than 0 rad/s", rest_angular_speed);
+  check.expect(rest_overlap > 0, "rest_overlap", "more than 0 m", rest_overlap);
+  check.expect(layer_time_limit > 0, "layer_time_limit", "more than 0 s", layer_time_limit);
+  check.expect(final_time_limit > 0, "final_time_limit", "more than 0 s", final_time_limit);
+  check.expect(lost_below <= 0, "lost_below", "0 m or less", lost_below);
+  check.expect(lost_beyond > 0, "lost_beyond", "more than 0 m", lost_beyond);
+  check.expect(threads >= 0 && threads <= 1024, "threads", "0 to 1024", threads);
+  check.finish();
 }
 
 PileState settle_pile(const Pile& pile, const SettleOptions& options,
@@ -297,6 +291,19 @@ WorldOptions calc_world_options(const SettleOptions& options) {
   w.lost_beyond = options.lost_beyond;
   w.threads = options.threads;
   return w;
+}
+
+std::uint64_t hash_work(const Pile& pile, const SettleOptions& options) {
+  StateHash hash;
+  hash.add(hash_pile(pile));
+  hash.add(std::int32_t(options.schedule));
+  for (double value : {options.gravity, options.step, options.rest_speed,
+                       options.rest_angular_speed, options.rest_overlap,
+                       options.layer_time_limit,
+                       options.final_time_limit, options.lost_below, options.lost_beyond}) {
+    hash.add(value);
+  }
+  return hash.digest();
 }
 
 }  // namespace rubble

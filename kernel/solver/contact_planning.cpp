@@ -180,8 +180,13 @@ bool ContactSolver::note_touches() {
 
 void ContactSolver::pack() {
   if (note_touches()) return;
+  colours_.begin(moving_.size());
+  for (std::size_t i = 0; i < planned_.size(); ++i) colours_.add(std::int32_t(i), planned_[i].a, planned_[i].b);
   plan_.begin(domain_count_, domains_);
-  for (const Touch& touch : planned_) plan_.add(touch.contact, touch.a, touch.b, touch.rows);
+  for (std::int32_t i : colours_.finish()) {
+    const Touch& touch = planned_[i];
+    plan_.add(touch.contact, touch.a, touch.b, touch.rows);
+  }
   plan_.finish();
   batches_.resize(std::size_t(plan_.batch_count()));
   std::int32_t rows = 0;
@@ -196,7 +201,7 @@ void ContactSolver::pack() {
 // Threads take part where there is enough to do for each, unless other programs kept them from it lately:
 // waiting for a thread that does not run costs more than doing its work. Contacts of trees are not in the
 // sweeps, so they do not count: where trees alone move, there is nothing to divide.
-int ContactSolver::choose_domain_count(const ThreadPool& pool) {
+int ContactSolver::choose_domain_count(ThreadPool& pool) {
   const int swept = int(heads_.size() - tree_order_.size());
   const int most = std::min({pool.threads(), swept / kLeastContacts, kMostDomains});
   return most < 2 || pool.crowded() ? 1 : most;

@@ -63,13 +63,17 @@ struct ContactBatch {
   std::int32_t contact[kLanes];             // index of the contact; -1: lane not in use
   std::int32_t first_row = 0, rows = 0;
   std::int32_t used = 0;                    // the lanes with a contact come first
-  Lanes inverse_mass_a, inverse_mass_b, friction, radius;
+  Lanes inverse_mass_a, inverse_mass_b, friction;
+  Lanes radius, per_radius;                 // mean radius of the patch, and 1 over it
   Lanes push_share_a, push_share_b;         // see contact_law; 0 for immovable bodies
   Lanes push_mass_a, push_mass_b;           // share times mass, or 0
   Lanes3 normal;
   FrictionRow slide[2];
   Lanes3 twist_a, twist_b;                  // inverse inertia times the normal
   Lanes twist_mass, twist_impulse;
+  // Friction that a sliding contact may still give, or gave too much, as normal impulses changed after it was solved.
+  // The next substep adds it to the limit, so that their sums agree. unit: N s
+  Lanes owed;
   Lanes pressed;                            // sum of normal impulses over the step
   Lanes most, highest;                      // of a row in a substep: allowed, and reached
 };

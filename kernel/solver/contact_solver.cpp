@@ -1,6 +1,7 @@
 #include "kernel/solver/contact_solver.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace rubble {
 namespace {
@@ -9,6 +10,9 @@ namespace {
 constexpr float kSlowSpeed = 0.2F;  // unit: m/s
 // The same for angular speeds. unit: rad/s
 constexpr float kSlowSpin = 2.0F;
+
+// Bodies that a thread takes at once; fewer are not worth the call.
+constexpr int kBodyGrain = 256;
 
 PaddedMotion padded(const Motion& m) {
   return {Quad{m.linear.x, m.linear.y, m.linear.z, 0},
@@ -56,13 +60,13 @@ void ContactSolver::pack_and_note(const std::vector<Body>& bodies, const std::ve
   });
 }
 
-// One substep after another, on the thread of a domain. Whoever shares a body with another thread waits
-// for it as the plan says, also from one sweep to the next, and whoever moves his bodies waits until the others have
-// left them. So each number of a body is written and read by one thread after the other. All meet only where trees
-// are solved between two sweeps.
+// One substep after another. Whoever is at a domain that shares a body with another waits for it as the plan says, also
+// from one sweep to the next, and whoever moves its bodies waits until the others have left them. So each number of a
+// body is written and read by one thread after the other. All meet only where trees are solved between two sweeps.
 //
-// A thread that waits in vain leaves its domain as it stands: another program has a processor. In the end the caller goes
-// on with what was left, domain by domain, so no result depends on it.
+// Each thread begins with a domain of its own. Where that must wait for long, or is done, it goes on with any that nobody is
+// at: so nobody waits for a thread that comes late or never, only for one that lost its processor within a batch.
+// No result depends on who does what.
 class ContactSolver::Sweeper {
  public:
   Sweeper(ContactSolver& solver, const SolverSettings& settings)
@@ -95,20 +99,37 @@ class ContactSolver::Sweeper {
   // advance(domain): does the next thing; false: it must wait for another domain.
   template <typename Advance>
   void run(ThreadPool& pool, const Advance& advance) {
-    pool.run_together(s_.domain_count_, [&](int domain) {
-      while (!stands_[std::size_t(domain)].done)
-        if (!advance(domain) && !progress_.wait_until([&] { return advance(domain); })) return;
-    });
-    if (!progress_.crowded()) return;
-    pool.note_crowded();
-    for (bool done = false; !done;) {
-      done = true;
-      for (int domain = 0; domain < s_.domain_count_; ++domain) {
-        while (!stands_[std::size_t(domain)].done && advance(domain)) {
+    left_ = s_.domain_count_;
+    bool in_vain = false;
+    pool.run_with_help(s_.domain_count_, [&](int thread) {
+      IdleWait wait(thread == 0);
+      while (left_.load(std::memory_order_acquire) > 0) {
+        if (go_on_with(thread, advance) || (wait.at_length() && help(thread, advance))) {
+          wait.reset();
+        } else if (!wait.pause()) {
+          return;
         }
-        done = done && stands_[std::size_t(domain)].done;
       }
-    }
+      if (thread == 0) in_vain = wait.in_vain();
+    });
+    if (in_vain) pool.note_crowded();
+  }
+  template <typename Advance>
+  bool help(int thread, const Advance& advance) {
+    for (int k = 1; k < s_.domain_count_; ++k)
+      if (go_on_with((thread + k) % s_.domain_count_, advance)) return true;
+    return false;
+  }
+  // Until it must wait. False: there was nothing to do.
+  template <typename Advance>
+  bool go_on_with(int domain, const Advance& advance) {
+    if (!progress_.take(domain)) return false;
+    Stand& stand = stands_[std::size_t(domain)];
+    bool any = false;
+    while (!stand.done && advance(domain)) any = true;
+    if (any && stand.done) left_.fetch_sub(1, std::memory_order_release);
+    progress_.give_back(domain);
+    return any;
   }
 
   bool advance(int domain) {
@@ -249,8 +270,9 @@ class ContactSolver::Sweeper {
   int substeps_, iterations_;
   float h_, weight_;  // unit: s, m/s
   bool trees_;
-  std::vector<Stand> stands_;  // by domain; each is of one thread
+  std::vector<Stand> stands_;  // by domain; each is of the thread that has taken it
   SweepProgress progress_;
+  std::atomic<int> left_{0};  // domains that are not done
 };
 
 void ContactSolver::run_substeps(const SolverSettings& settings, ThreadPool& pool) {
@@ -324,18 +346,20 @@ bool ContactSolver::is_pushed(const ContactBatch& batch) const {
 // A piece whose speed turns it into its neighbours, step after step, while the pushes turn it back,
 // does not go anywhere: the part of its speed that was undone is lost. Only for slow pieces, whose
 // momentum is nothing beside that of the weights they carry, and not for what is in the air.
-void ContactSolver::cancel_correction_velocity(const SolverSettings& settings) {
+void ContactSolver::cancel_correction_velocity(const SolverSettings& settings, ThreadPool& pool) {
   const auto drop = [&settings](Quad& speed, Quad push, float slow) {
     const Quad s2 = speed * speed, sp = speed * push;
     const float length2 = s2[0] + s2[1] + s2[2], along = sp[0] + sp[1] + sp[2];
     if (along >= 0 || length2 > slow * slow) return;
     speed *= make_quad(std::max(0.0F, 1 + along / (settings.step * length2)));
   };
-  for (std::size_t i = 0; i < moving_.size(); ++i) {
-    if (!is_supported(std::int32_t(i))) continue;
-    drop(speeds_[i].linear, moved_[i].linear - before_push_[i].linear, kSlowSpeed);
-    drop(speeds_[i].angular, moved_[i].angular - before_push_[i].angular, kSlowSpin);
-  }
+  pool.run(int(moving_.size()), kBodyGrain, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      if (!is_supported(std::int32_t(i))) continue;
+      drop(speeds_[i].linear, moved_[i].linear - before_push_[i].linear, kSlowSpeed);
+      drop(speeds_[i].angular, moved_[i].angular - before_push_[i].angular, kSlowSpin);
+    }
+  });
 }
 
 bool ContactSolver::has_intervened(std::int32_t body) const {
@@ -388,11 +412,13 @@ void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body
   run_substeps(settings, pool);
   before_push_ = moved_;
   solve_position_constraints(settings, pool);
-  cancel_correction_velocity(settings);
-  for (std::size_t i = 0; i < moving_.size(); ++i) {
-    velocities[moving_[i]] = unpadded(speeds_[i]);
-    displacements[moving_[i]] = unpadded(moved_[i]);
-  }
+  cancel_correction_velocity(settings, pool);
+  pool.run(int(moving_.size()), kBodyGrain, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      velocities[moving_[i]] = unpadded(speeds_[i]);
+      displacements[moving_[i]] = unpadded(moved_[i]);
+    }
+  });
   each_batch(pool, [&](const BatchRange& part) {
     for (const ContactBatch* batch = part.begin; batch != part.end; ++batch) {
       store(*batch, contacts);

@@ -13,6 +13,7 @@
 #include "kernel/base/parallel.h"
 #include "kernel/collision/body.h"
 #include "kernel/collision/contact.h"
+#include "kernel/solver/contact_colours.h"
 #include "kernel/solver/contact_rows.h"
 #include "kernel/solver/sweep_plan.h"
 #include "kernel/solver/sweep_progress.h"
@@ -86,7 +87,7 @@ class ContactSolver {
   void find_supported();
   bool is_supported(std::int32_t number) const;  // something immovable is among what it touches
   void share_inertia(const std::vector<Body>& bodies);
-  int choose_domain_count(const ThreadPool& pool);
+  int choose_domain_count(ThreadPool& pool);
   void divide(const std::vector<Body>& bodies);
   void note_places(const std::vector<Body>& bodies);
   bool note_touches();  // true: the plan has the same
@@ -103,7 +104,7 @@ class ContactSolver {
   void solve_position_constraints(const SolverSettings& settings, ThreadPool& pool);
   void push(int batch);
   bool is_pushed(const ContactBatch& batch) const;
-  void cancel_correction_velocity(const SolverSettings& settings);
+  void cancel_correction_velocity(const SolverSettings& settings, ThreadPool& pool);
   void store(const ContactBatch& batch, std::vector<Contact>& contacts) const;
 
   std::vector<Head> heads_;
@@ -124,6 +125,7 @@ class ContactSolver {
   std::vector<std::uint8_t> pushed_;          // by moving body
   std::vector<Touch> touches_, planned_;      // of the plan before, and of this one
   std::vector<std::uint8_t> planned_domains_; // by moving body
+  ContactColours colours_;
   SweepPlan plan_;
   int domain_count_ = 1;
   std::vector<float> places_, sorted_places_;  // by moving body

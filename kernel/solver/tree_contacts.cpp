@@ -71,28 +71,57 @@ void TreeContacts::save(const Item& item, const View& view, bool displacements,
   }
 }
 
+// Returns whether it slides.
 template <int sides>
-void TreeContacts::solve_friction(Item& item, double limit, View& view) {
-  Row &first = item.slide[0], &second = item.slide[1];
-  const double v0 = first.relative<sides>(view) + item.belt[0],
-               v1 = second.relative<sides>(view) + item.belt[1];
+bool TreeContacts::solve_friction(Item& item, double limit, View& view) {
+  Row &first = item.slide[0], &second = item.slide[1], &twist = item.twist;
+  double v0 = first.relative<sides>(view) + item.belt[0], v1 = second.relative<sides>(view) + item.belt[1];
+  double x0 = first.impulse, x1 = second.impulse;
+  item.axes.apply(v0, v1);
+  item.axes.apply(x0, x1);
+  const double masses[3] = {first.mass, second.mass, twist.mass / (item.radius * item.radius)};
+  double wanted[3] = {x0 - masses[0] * v0, x1 - masses[1] * v1,
+                      (twist.impulse - twist.mass * twist.relative<sides>(view)) / item.radius};
+  const contact_law::Slip<double> slip = contact_law::find_slip(limit, masses, wanted);
+  for (int t = 0; t < 2; ++t) wanted[t] /= 1 + slip.slide * masses[t];
+  const double slide2 = wanted[0] * wanted[0] + wanted[1] * wanted[1];
+  const double shrink = contact_law::shrink_into_cone(limit, slide2);
+  double slide[2] = {wanted[0] * shrink, wanted[1] * shrink};
+  PlaneTurn<double>{item.axes.cosine, -item.axes.sine}.apply(slide[0], slide[1]);
+  apply_slide<sides>(item, slide, view);
+  // The torque sees what the force has changed.
+  const double turned = (twist.impulse - twist.mass * twist.relative<sides>(view)) / (1 + slip.twist * masses[2]);
+  const double next = item.radius * contact_law::clamp_twist(limit, slide2 * shrink * shrink, turned / item.radius);
+  twist.apply<sides>(next - twist.impulse, view);
+  twist.impulse = next;
+  return slip.slide > 0;
+}
+
+template <int sides>
+void TreeContacts::apply_slide(Item& item, const double* slide, View& view) {
+  for (int t = 0; t < 2; ++t) {
+    item.slide[t].apply<sides>(slide[t] - item.slide[t].impulse, view);
+    item.slide[t].impulse = slide[t];
+  }
+}
+
+// A robot's tracks and wheels: what slides leaves its torque what the force does not use.
+template <int sides>
+void TreeContacts::solve_driven_friction(Item& item, double limit, View& view) {
+  const double v0 = item.slide[0].relative<sides>(view) + item.belt[0],
+               v1 = item.slide[1].relative<sides>(view) + item.belt[1];
   const double* inverse = item.slide_inverse;
-  const double wanted[2] = {first.impulse - inverse[0] * v0 - inverse[1] * v1,
-                            second.impulse - inverse[1] * v0 - inverse[2] * v1};
+  const double wanted[2] = {item.slide[0].impulse - inverse[0] * v0 - inverse[1] * v1,
+                            item.slide[1].impulse - inverse[1] * v0 - inverse[2] * v1};
   const double length2 = wanted[0] * wanted[0] + wanted[1] * wanted[1];
   const double shrink = contact_law::shrink_into_cone(limit, length2);
   double slide[2] = {wanted[0] * shrink, wanted[1] * shrink};
-  if (item.driven && shrink < 1 && !item.one_way)
-    contact_law::solve_slide(item.slide_matrix, limit, wanted, slide);
-  for (int t = 0; t < 2; ++t) {
-    const double next = slide[t];
-    item.slide[t].apply<sides>(next - item.slide[t].impulse, view);
-    item.slide[t].impulse = next;
-  }
+  if (shrink < 1 && !item.one_way) contact_law::solve_slide(item.slide_matrix, limit, wanted, slide);
+  apply_slide<sides>(item, slide, view);
   Row& twist = item.twist;
   const double free = twist.impulse - twist.mass * twist.relative<sides>(view);
-  const double left = item.driven ? contact_law::left_for_twist(limit, slide) : limit;
-  const double next = contact_law::clamp_twist(left, item.radius, free);
+  const double slide2 = slide[0] * slide[0] + slide[1] * slide[1];
+  const double next = item.radius * contact_law::clamp_twist(limit, slide2, free / item.radius);
   twist.apply<sides>(next - twist.impulse, view);
   twist.impulse = next;
 }
@@ -112,14 +141,21 @@ void TreeContacts::solve_normals(Item& item, double per_substep, const View& mov
 
 template <int sides>
 void TreeContacts::solve_item(Item& item, double per_substep, const View& moved, View& view) {
-  double pressed = sum_impulses(item);
+  double pressed = sum_impulses(item), limit = 0;
+  bool slides = false;
   for (int round = 0; round < kMostRounds; ++round) {
-    if (item.kind == Kind::contact) solve_friction<sides>(item, item.friction * pressed, view);
+    if (item.driven) {
+      solve_driven_friction<sides>(item, item.friction * pressed, view);
+    } else if (item.kind == Kind::contact) {
+      limit = std::max(0.0, item.friction * pressed + item.owed);
+      slides = solve_friction<sides>(item, limit, view);
+    }
     solve_normals<sides>(item, per_substep, moved, view);
     const double before = pressed;
     pressed = sum_impulses(item);
     if (item.kind == Kind::stop || pressed <= before + before * double(kImpactRise)) break;
   }
+  item.owed = slides ? item.owed + item.friction * pressed - limit : 0;
 }
 
 void TreeContacts::solve_loop(Item& item, View& view) {
@@ -166,12 +202,13 @@ void TreeContacts::clamp_accumulated_impulses(Item& item, double weight) {
   }
   if (item.kind != Kind::contact) return;
   Row &first = item.slide[0], &second = item.slide[1];
-  const double limit = item.friction * carried;
-  const double shrink = contact_law::shrink_into_cone(
-      limit, first.impulse * first.impulse + second.impulse * second.impulse);
+  const double limit = item.friction * carried, torque = item.twist.impulse / item.radius;
+  const double slide2 = first.impulse * first.impulse + second.impulse * second.impulse;
+  const double shrink = contact_law::shrink_into_cone(limit, slide2 + (item.driven ? 0 : torque * torque));
   first.impulse *= shrink;
   second.impulse *= shrink;
-  item.twist.impulse = contact_law::clamp_twist(limit, item.radius, item.twist.impulse);
+  item.twist.impulse =
+      item.driven ? item.radius * contact_law::clamp_twist(limit, 0.0, torque) : item.twist.impulse * shrink;
 }
 
 // The impulse that a substep ended with, on each side that may break.
@@ -223,7 +260,7 @@ void TreeContacts::begin_substep(PaddedMotion* speeds, bool first, double weight
   for (std::int32_t index : sequence_) {
     Item& item = items_[std::size_t(index)];
     if (!first) note_total(item), clamp_accumulated_impulses(item, weight);
-    if (item.kind == Kind::contact) place_friction(item);
+    if (item.kind == Kind::contact && (first || item.driven)) place_friction(item);
     start(item, speeds);
   }
   for (std::int32_t tree : trees_.trees) motion(tree).add_forces();

@@ -14,6 +14,7 @@
 #include "kernel/collision/contact.h"
 #include "kernel/multibody/tree_motion.h"
 #include "kernel/solver/contact_rows.h"
+#include "kernel/solver/friction_axes.h"
 
 namespace rubble {
 
@@ -98,11 +99,13 @@ class TreeContacts {
     std::size_t first_row = 0;
     int rows = 0;
     double friction = 0, radius = 0;  // a coefficient; of a joint: impulse of a substep at most
+    double owed = 0;                  // as ContactBatch::owed
     Vec3 normal, tangents[2];
     double belt[2] = {};  // along the tangents, of the surface of B less that of A; unit: m/s
     Row slide[2], twist;
-    double slide_matrix[3] = {}, slide_inverse[3] = {};  // J M^-1 J^T of the two, symmetric
-    bool driven = false;  // a robot takes part: see solve_slide()
+    PlaneTurn<double> axes{1, 0};  // from the tangents to the axes of friction, which the masses of `slide` are of
+    double slide_matrix[3] = {}, slide_inverse[3] = {};  // of driven ones: J M^-1 J^T of the two, symmetric
+    bool driven = false;  // a contact of a robot: see solve_driven_friction()
     bool one_way = false; // it can slide along one line only
     Spatial total[2];  // impulse of the step, where joints may break
   };
@@ -123,6 +126,7 @@ class TreeContacts {
   void set_row(const Item& item, const Spatial& a, const Spatial& b, Row& row) const;
   double calc_push_mass(const Item& item, const Row& row) const;
   void place_friction(Item& item);
+  static void note_driven_slide(Item& item, double k00, double k01, double k11);
   TreeMotion& motion(std::int32_t tree) const { return (*trees_.motions)[std::size_t(tree)]; }
   void load(const Item& item, const PaddedMotion* free, bool displacements, View& view) const;
   static Spatial read(const Side& side, const PaddedMotion* free);
@@ -130,11 +134,17 @@ class TreeContacts {
   void save(const Item& item, const View& view, bool displacements, PaddedMotion* free) const;
   void start(const Item& item, PaddedMotion* speeds) const;
   template <int sides>
-  void solve_friction(Item& item, double limit, View& view);
+  bool solve_friction(Item& item, double limit, View& view);
+  template <int sides>
+  void apply_slide(Item& item, const double* slide, View& view);
+  template <int sides>
+  void solve_driven_friction(Item& item, double limit, View& view);
   template <int sides>
   void solve_normals(Item& item, double per_substep, const View& moved, View& view);
   template <int sides>
   void solve_item(Item& item, double per_substep, const View& moved, View& view);
+  template <int sides>
+  double find_first_loads(const Item& item, double* loads) const;
   template <int sides>
   void place_friction_of(Item& item);
   void solve_one(Item& item, double per_substep, const PaddedMotion* moved, PaddedMotion* speeds);

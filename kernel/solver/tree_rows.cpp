@@ -13,8 +13,8 @@ namespace {
 // counts as held by the tree's joints.
 constexpr double kRedundant = 1e-6;
 
-// Where the determinant of J M^-1 J^T of the two tangents is less than this share of its trace squared, what
-// is left of it is rounding; unit: 1.
+// Where the determinant of J M^-1 J^T of the two tangents is less than this share of its trace squared, or a principal
+// value less than this share of its trace, what is left of it is rounding; unit: 1.
 constexpr double kOneWay = 1e-12;
 // Where the normal leans towards a belt's axis until its part across is less than this, the surface is the
 // belt's edge, which slows down to nothing at the end of the axis; unit: 1.
@@ -199,20 +199,42 @@ void TreeContacts::place_friction(Item& item) {
   }
 }
 
+// As find_first_loads() of rows/contact_prepare.h.
+template <int sides>
+double TreeContacts::find_first_loads(const Item& item, double* loads) const {
+  const NormalRow* rows = &rows_[item.first_row];
+  double sum = 0;
+  for (int i = 0; i < item.rows; ++i) loads[i] = 0;
+  for (int sweep = 0; sweep < contact_law::kLoadSweeps; ++sweep) {
+    for (int k = 0; k < item.rows; ++k) {
+      const int i = sweep % 2 == 0 ? k : item.rows - 1 - k;
+      double speed = -1;
+      for (int j = 0; j < item.rows; ++j) speed += rows[i].row.couple<sides>(rows[j].row) * loads[j];
+      const double next = std::max(0.0, loads[i] - rows[i].row.mass * speed);
+      sum += next - loads[i];
+      loads[i] = next;
+    }
+  }
+  return sum;
+}
+
 template <int sides>
 void TreeContacts::place_friction_of(Item& item) {
-  const auto shares =
-      contact_law::find_centre_shares<double>(sum_impulses(item), double(item.rows));
   const NormalRow* rows = &rows_[item.first_row];
+  double loads[Contact::kMaxPoints], sum = sum_impulses(item);
+  for (int i = 0; i < item.rows; ++i) loads[i] = rows[i].row.impulse;
+  if (sum <= 0 && !item.driven) sum = find_first_loads<sides>(item, loads);
+  const auto shares = contact_law::find_centre_shares<double>(sum, double(item.rows));
   Vec3 centre_a, centre_b;
   double share[Contact::kMaxPoints];
   for (int i = 0; i < item.rows; ++i) {
-    share[i] = shares.each + shares.per_impulse * rows[i].row.impulse;
+    share[i] = shares.each + shares.per_impulse * loads[i];
     centre_a += rows[i].from_a * share[i];
     if (sides == 2) centre_b += rows[i].from_b * share[i];
   }
   item.radius = 0;
   for (int i = 0; i < item.rows; ++i) item.radius += share[i] * norm(rows[i].from_a - centre_a);
+  if (!item.driven) item.radius *= double(contact_law::mean_radius_share(item.rows));
   item.radius = std::max(item.radius, double(contact_law::kPatchRadius));
   for (int t = 0; t < 2; ++t) {
     const Vec3& along = item.tangents[t];
@@ -221,13 +243,22 @@ void TreeContacts::place_friction_of(Item& item) {
   }
   const Row &r = item.slide[0], &s = item.slide[1];
   const double k00 = r.couple<sides>(r), k01 = r.couple<sides>(s), k11 = s.couple<sides>(s);
+  if (item.driven) return note_driven_slide(item, k00, k01, k11);
+  item.axes = find_friction_axes(k00, k01, k11);
+  const double c = item.axes.cosine, d = item.axes.sine;
+  const double along[2] = {c * c * k00 + 2 * c * d * k01 + d * d * k11, d * d * k00 - 2 * c * d * k01 + c * c * k11};
+  // A link with one hinge to something immovable slides along one line only.
+  for (int t = 0; t < 2; ++t) item.slide[t].mass = along[t] > kOneWay * (k00 + k11) ? 1 / along[t] : 0;
+}
+
+void TreeContacts::note_driven_slide(Item& item, double k00, double k01, double k11) {
   const double determinant = k00 * k11 - k01 * k01;
   const double inverse = determinant > 0 ? 1 / determinant : 0;
   item.slide_matrix[0] = k00, item.slide_matrix[1] = k01, item.slide_matrix[2] = k11;
   // A link with one hinge to the ground slides along one line only: K is lambda a a^T, and K / lambda^2 takes
   // the place of its inverse.
   const double trace = k00 + k11;
-  item.one_way = item.driven && determinant <= kOneWay * trace * trace;
+  item.one_way = determinant <= kOneWay * trace * trace;
   if (item.one_way) {
     const double scale = trace > 0 ? 1 / (trace * trace) : 0;
     item.slide_inverse[0] = k00 * scale, item.slide_inverse[1] = k01 * scale, item.slide_inverse[2] = k11 * scale;

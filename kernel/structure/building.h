@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/base/mesh.h"
 #include "kernel/model/building.h"
 #include "kernel/structure/structure.h"
 
@@ -26,5 +27,10 @@ struct BuildingStructures {
   Structure whole, damaged;  // a pile has the pieces of `damaged`, in their order
 };
 BuildingStructures build_structures(const BuildingSpec& building);
+
+// The terrain under a building.
+// A building stands on the ground z = 0. Throws InputError, with the place, where the terrain, whose mesh lies at
+// `position` (m), reaches more than 1 mm into a member of the building or covers one.
+void check_site(const Structure& building, const TriangleMesh& terrain, const Vec3& position);
 
 }  // namespace rubble

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/model/pile_state.h"
 #include "kernel/structure/stress.h"
+#include "kernel/structure/structure.h"
 
 namespace rubble {
 
@@ -48,5 +50,16 @@ std::vector<BondFailure> find_failing(const Structure& structure, const BondGrou
 
 // What breaking a bond takes: the concrete's fracture energy and the bars' plastic work. unit: J
 double calc_breaking_energy(const Section& section);
+
+// Whether a structure stands by itself.
+// The forces in a structure's bonds under its own weight, by bond. Throws InputError naming the worst
+// bond, its failure and by how much, where one is used up: the building does not stand by itself.
+std::vector<SectionForces> check_stands(const Structure& structure, double gravity);
+
+// The bars of a bond after its concrete has failed, as ties between its pieces.
+// One tie, or two side by side where the section is wide, so that what hangs on it turns like a hinge.
+// Pieces have their numbers in the structure; b is -1 for the foundation. continuity: share of the bars
+// that hold; range: 0 to 1. None where the section has no bars.
+std::vector<TieState> find_remaining_bars(const Structure& structure, const Bond& bond, double continuity);
 
 }  // namespace rubble

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/base/mesh.h"
 #include "kernel/model/pile_state.h"
 #include "kernel/model/surroundings.h"
 
@@ -22,5 +23,15 @@ Circle find_pile_circle(const PileState& pile, const std::vector<const TriangleM
 // SurroundingsType::none.
 Surroundings make_surroundings(const SurroundingsSpec& spec, std::uint64_t seed, const Circle& pile, bool dark,
                                double wetness);
+
+// The solid surface of the surroundings, for contacts of robots.
+
+// All that is solid of what comes nearer than `reach` to the Z axis, as one surface in the world, by the triangles that
+// are drawn: without leaves, tufts, puddles and the skyline. Empty where nothing is there. reach: unit: m
+TriangleMesh make_solid_surface(const Surroundings& surroundings, double reach);
+
+// As robots feel it.
+inline constexpr double kFeltReach = 60;              // about the Z axis; unit: m
+inline constexpr double kSurroundingsFriction = 0.8;  // of asphalt and walls, as of concrete; unit: 1
 
 }  // namespace rubble

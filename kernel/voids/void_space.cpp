@@ -7,6 +7,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/geometry/distance_transform.h"
+#include "kernel/model/range_check.h"
 #include "kernel/voids/solid_voxels.h"
 
 namespace rubble {
@@ -285,22 +286,13 @@ class Builder {
 }  // namespace
 
 void VoidSpaceOptions::validate() const {
-  std::vector<Diagnostic> problems;
-  const auto expect = [&](bool fine, const char* key, const char* expected, double found) {
-    if (fine) return;
-    Diagnostic d;
-    d.key = key;
-    d.message = "out of range";
-    d.expected = expected;
-    d.found = std::to_string(found);
-    problems.push_back(d);
-  };
-  expect(voxel >= 0.001 && voxel <= 1, "voxel", "0.001 to 1 m", voxel);
-  expect(rolling_radius >= 2 * voxel && rolling_radius <= 10, "rolling_radius", "2 voxels to 10 m",
-         rolling_radius);
-  expect(memory_limit > 0, "memory_limit", "more than 0 bytes", memory_limit);
-  expect(threads >= 0 && threads <= 1024, "threads", "0 to 1024", threads);
-  if (!problems.empty()) throw InputError(problems);
+  RangeCheck check("");
+  check.expect(voxel >= 0.001 && voxel <= 1, "voxel", "0.001 to 1 m", voxel);
+  check.expect(rolling_radius >= 2 * voxel && rolling_radius <= 10, "rolling_radius", "2 voxels to 10 m",
+               rolling_radius);
+  check.expect(memory_limit > 0, "memory_limit", "more than 0 bytes", memory_limit);
+  check.expect(threads >= 0 && threads <= 1024, "threads", "0 to 1024", threads);
+  check.finish();
 }
 
 double VoidSpace::volume(CellKind wanted) const {

@@ -12,9 +12,9 @@
 namespace rubble {
 namespace {
 
-void check_movable(const NewPiece& piece, const std::vector<PieceType>& types, int placeable, int index) {
-  const int type = piece.placement.type;
-  if (piece.placement.fixed || type >= placeable || !types[std::size_t(type)].surface) return;
+void check_movable(const NewPiece& piece, const std::vector<PieceType>& types, int index) {
+  const PieceKind kind = piece.placement.kind;
+  if (piece.placement.fixed || kind.is_assembly || !types[std::size_t(kind.index)].surface) return;
   Diagnostic d;
   d.key = "pieces[" + std::to_string(index) + "].fixed";
   d.message = "a surface cannot move";
@@ -23,14 +23,16 @@ void check_movable(const NewPiece& piece, const std::vector<PieceType>& types, i
   throw InputError(d);
 }
 
-void check(const NewPiece& piece, int types, int index) {
+void check(const NewPiece& piece, const WorldTypes& types, int index) {
   Diagnostic d;
   d.key = "pieces[" + std::to_string(index) + "]";
-  if (piece.placement.type < 0 || piece.placement.type >= types) {
-    d.key += ".type";
-    d.message = "no such type";
-    d.expected = "0 to " + std::to_string(types - 1);
-    d.found = std::to_string(piece.placement.type);
+  const PieceKind kind = piece.placement.kind;
+  const int count = kind.is_assembly ? int(types.assemblies.size()) : types.placeable;
+  if (kind.index < 0 || kind.index >= count) {
+    d.key += kind.is_assembly ? ".assembly" : ".type";
+    d.message = "no such " + std::string(kind.is_assembly ? "assembly" : "type");
+    d.expected = "0 to " + std::to_string(count - 1);
+    d.found = std::to_string(kind.index);
     throw InputError(d);
   }
   if (!(piece.placement.scale >= 0.01 && piece.placement.scale <= 100)) {
@@ -77,14 +79,13 @@ int World::add(const std::vector<NewPiece>& pieces) {
   Impl& w = *impl_;
   const int first = size();
   w.data.verification_steps = -1;
-  const int types = w.types.placeable, kinds = types + int(w.types.assemblies.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    check(pieces[i], kinds, int(i));
-    check_movable(pieces[i], w.types.pieces, types, int(i));
+    check(pieces[i], w.types, int(i));
+    check_movable(pieces[i], w.types.pieces, int(i));
   }
   std::vector<FreeBody> free;  // by body; those of links are not used
   for (const NewPiece& piece : pieces) {
-    if (piece.placement.type < types) {
+    if (!piece.placement.kind.is_assembly) {
       free.emplace_back();
       w.bodies.add(piece, &free.back());
     } else {
@@ -203,7 +204,7 @@ int World::add_surface(std::shared_ptr<const TriangleMesh> mesh, double friction
   w.types.shapes.push_back(compile_shape(type, "surface"));
   w.types.pieces.push_back(type);
   NewPiece piece;
-  piece.placement.type = int(w.types.pieces.size()) - 1;
+  piece.placement.kind = int(w.types.pieces.size()) - 1;
   piece.placement.fixed = true;
   const int number = size();
   FreeBody none;

@@ -9,8 +9,6 @@
 #include "kernel/base/portable_math.h"
 #include "kernel/base/tables/text_table.h"
 #include "scripting/files/calibration_values.h"
-#include "scripting/files/ouster_metadata.h"
-#include "scripting/files/yaml_value.h"
 
 namespace rubble {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -71,5 +72,22 @@ class CalibrationValues {
  private:
   std::string path_;
 };
+
+// YAML and JSON files as plain values. yaml-cpp stays behind it.
+// Of the first document: maps and lists are tables, scalars without quotes numbers or booleans where they
+// are such. Also takes OpenCV's FileStorage: `%YAML:1.0` and `!!opencv-matrix`. Throws InputError with `path`
+// and line for what is no such text, is nested deeper than 50 or holds more than a million values.
+Value parse_yaml(std::string_view text, const std::string& path);
+
+// Metadata of Ouster's LiDARs, as keys of a `lidar`.
+struct OusterMetadata {
+  Value keys;                      // model, columns, rate and the sensor's own beams
+  std::vector<std::string> notes;  // what is left out
+  std::string kind;                // of the sensor: "lidar"
+};
+
+// Keys at the top of the file (firmware 1 and 2), or in sections such as `beam_intrinsics` (firmware 3). Throws
+// InputError with `path` and the key.
+OusterMetadata read_ouster_metadata(const Value& root, const std::string& path);
 
 }  // namespace rubble

@@ -3,14 +3,13 @@
 // beam_azimuth_angles[i], counter-clockwise; its elevation is beam_altitude_angles[i]. The encoder turns clockwise from X.
 // lidar_to_sensor_transform turns this frame by 180 degrees about Z, which makes the first column look backwards, as
 // our LiDARs do (render/scene/lidar_spec.h), and lifts it. Rows begin at the top, our rings at the lowest.
-#include "scripting/files/ouster_metadata.h"
+#include "scripting/files/calibration_values.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "kernel/base/tables/text_table.h"
-#include "scripting/files/calibration_values.h"
 
 namespace rubble {
 namespace {

@@ -1,4 +1,4 @@
-#include "scripting/files/yaml_value.h"
+#include "scripting/files/calibration_values.h"
 
 #include <yaml-cpp/yaml.h>
 

@@ -1,13 +1,11 @@
 #include <algorithm>
 
 #include "scripting/packs/pack_schema.h"
-#include "scripting/reference/lua_base_annotations.h"
-#include "scripting/reference/lua_text.h"
 #include "scripting/reference/schema_docs.h"
 #include "scripting/reference/slot_types.h"
 #include "scripting/sandbox/lua_options.h"
 #include "scripting/sandbox/lua_sandbox.h"
-#include "scripting/scenario/scenario_schema.h"
+#include "scripting/scenario/mission_form.h"
 
 namespace rubble {
 namespace {

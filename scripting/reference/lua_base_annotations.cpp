@@ -1,4 +1,4 @@
-#include "scripting/reference/lua_base_annotations.h"
+#include "scripting/reference/schema_docs.h"
 
 namespace rubble {
 

@@ -6,12 +6,11 @@
 #include <stdexcept>
 
 #include "scripting/packs/pack_schema.h"
-#include "scripting/reference/lua_text.h"
 #include "scripting/reference/slot_types.h"
 #include "scripting/sandbox/lua_library.h"
 #include "scripting/sandbox/lua_options.h"
 #include "scripting/sandbox/lua_sandbox.h"
-#include "scripting/scenario/scenario_schema.h"
+#include "scripting/scenario/mission_form.h"
 
 namespace rubble {
 

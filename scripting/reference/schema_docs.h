@@ -25,4 +25,8 @@ std::string lua_reference();
 // std::runtime_error when a marker is missing.
 std::string with_reference(const std::string& document);
 
+// The functions of the closed environment that are written in C++ or in the prelude, annotated by hand;
+// a test compares their names with those that a script sees.
+extern const char* const kLuaBaseAnnotations;
+
 }  // namespace rubble

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "scripting/schema/schema.h"
+#include "scripting/values/value.h"
 
 namespace rubble {
 
@@ -14,5 +15,9 @@ struct SlotType {
 
 // A new alternative of Slot without a type does not compile.
 SlotType slot_type(const Slot& slot);
+
+// Values as a script would hold them.
+// "" for nil and for an empty text.
+std::string lua_text(const Value& value);
 
 }  // namespace rubble

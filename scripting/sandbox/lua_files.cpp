@@ -1,4 +1,4 @@
-#include "scripting/sandbox/lua_files.h"
+#include "scripting/sandbox/lua_value.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,6 @@
 #include "scripting/files/calibration.h"
 #include "scripting/files/data_grid.h"
 #include "scripting/sandbox/lua_host.h"
-#include "scripting/sandbox/lua_value.h"
 #include "scripting/trajectory/trajectory_text.h"
 #include "scripting/values/value.h"
 

@@ -9,7 +9,6 @@
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
 #include "kernel/base/text.h"
-#include "scripting/sandbox/lua_files.h"
 #include "scripting/sandbox/lua_options.h"
 #include "scripting/sandbox/lua_value.h"
 #include "scripting/values/value.h"

@@ -1,11 +1,10 @@
-#include "scripting/sandbox/lua_library_code.h"
+#include "scripting/sandbox/lua_library.h"
 
 #include <memory>
 #include <new>
 
 #include "kernel/base/error.h"
 #include "scripting/sandbox/lua_api.h"
-#include "scripting/sandbox/lua_library.h"
 
 namespace rubble {
 namespace {

@@ -1,4 +1,4 @@
-#include "scripting/sandbox/lua_prelude.h"
+#include "scripting/sandbox/lua_library.h"
 
 namespace rubble {
 

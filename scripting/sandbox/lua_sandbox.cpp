@@ -11,8 +11,6 @@
 #include "kernel/base/text.h"
 #include "scripting/sandbox/lua_host.h"
 #include "scripting/sandbox/lua_library.h"
-#include "scripting/sandbox/lua_library_code.h"
-#include "scripting/sandbox/lua_prelude.h"
 #include "scripting/sandbox/lua_value.h"
 #include "scripting/sandbox/script_includes.h"
 #include "scripting/schema/schema.h"

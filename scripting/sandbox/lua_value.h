@@ -14,4 +14,8 @@ Value read_lua_value(lua_State* lua, int index, std::size_t* count = nullptr);
 // Pushes it. A value that is no plain data is an error of Lua.
 void push_lua_value(lua_State* lua, const Value& value);
 
+// The functions by which a script reads files of its folder as data. Private to scripting.
+// Puts read_table, read_image and read_trajectory into the table on top of the stack.
+void add_file_functions(lua_State* lua);
+
 }  // namespace rubble

@@ -7,9 +7,9 @@
 
 #include "kernel/base/portable_math.h"
 #include "render/streams/image_streams.h"
-#include "scripting/scenario/optics_schema.h"
-#include "scripting/scenario/scenario_schema.h"
-#include "scripting/schema/schema_json.h"
+#include "scripting/scenario/mission_form.h"
+#include "scripting/scenario/part_schemas.h"
+#include "scripting/schema/schema.h"
 
 namespace rubble {
 namespace {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scripting/scenario/scenario.h"
+#include "scripting/schema/schema.h"
 
 namespace rubble {
 
@@ -19,5 +20,9 @@ struct MissionForm {
 
 // The mistakes of a mission, with those that a Scenario cannot have: both forms of the same.
 std::vector<Diagnostic> find_mistakes(const MissionForm& form);
+
+// The keys of a mission, in the order of the reference.
+// The form must outlive the schema.
+Schema make_scenario_schema(MissionForm& form);
 
 }  // namespace rubble

@@ -1,4 +1,4 @@
-#include "scripting/scenario/pile_schema.h"
+#include "scripting/scenario/part_schemas.h"
 
 namespace rubble {
 namespace {

@@ -6,10 +6,8 @@
 #include "kernel/base/random.h"
 #include "scripting/robots/robot_kind.h"
 #include "scripting/scenario/camera_mistakes.h"
-#include "scripting/scenario/pile_schema.h"
-#include "scripting/scenario/scenario_schema.h"
-#include "scripting/scenario/sky_schema.h"
-#include "scripting/scenario/surroundings_schema.h"
+#include "scripting/scenario/mission_form.h"
+#include "scripting/scenario/part_schemas.h"
 #include "scripting/values/value.h"
 
 namespace rubble {

@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "kernel/base/text.h"
-#include "scripting/scenario/scenario_schema.h"
-#include "scripting/schema/schema_json.h"
+#include "scripting/scenario/mission_form.h"
+#include "scripting/schema/schema.h"
 
 namespace rubble {
 namespace {

@@ -1,12 +1,9 @@
-#include "scripting/scenario/scenario_schema.h"
+#include "scripting/scenario/mission_form.h"
 
 #include <limits>
 
-#include "scripting/scenario/camera_schema.h"
-#include "scripting/scenario/pile_schema.h"
+#include "scripting/scenario/part_schemas.h"
 #include "scripting/scenario/robot_scenario.h"
-#include "scripting/scenario/sky_schema.h"
-#include "scripting/scenario/surroundings_schema.h"
 
 namespace rubble {
 namespace {

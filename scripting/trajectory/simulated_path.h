@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scripting/trajectory/motion_path.h"
+#include "scripting/trajectory/smooth_path.h"
 
 namespace rubble {
 

@@ -5,7 +5,6 @@
 
 #include "kernel/base/portable_math.h"
 #include "scripting/trajectory/curves.h"
-#include "scripting/trajectory/sample_path.h"
 #include "scripting/values/value.h"
 
 namespace rubble {

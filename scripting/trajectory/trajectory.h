@@ -19,7 +19,6 @@
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
 #include "scripting/trajectory/curves.h"
-#include "scripting/trajectory/motion_path.h"
 #include "scripting/trajectory/smooth_path.h"
 #include "scripting/trajectory/time_scale.h"
 
@@ -152,5 +151,10 @@ std::vector<Diagnostic> find_mistakes(const TrajectorySpec& spec);
 // rate_hz, rounded to the nearest nanosecond, so that nothing drifts. The last frame is at or
 // before the last waypoint. The same bits on every machine. Throws InputError (find_mistakes).
 std::vector<CameraPose> sample_trajectory(const TrajectorySpec& spec, std::int64_t epoch_ns);
+
+// Frames along a path that is made already.
+// As sample_trajectory(), of the path of that trajectory, or of a ride. rate_hz: of the frames; unit: Hz;
+// above 0.
+std::vector<CameraPose> sample_path(const MotionPath& path, double rate_hz, std::int64_t epoch_ns);
 
 }  // namespace rubble

@@ -261,7 +261,7 @@ std::vector<std::pair<double, std::string>> read_poses(const std::string& path) 
 }
 
 // Each camera stands on its mount while the pile settles, at its own rate, and then flies; its frames
-// are numbered without a gap.
+// are numbered without a gap. The inertial unit measures all the time.
 TEST(CamerasSettling, AllCamerasOfTheRigWatch) {
   const ScratchFolder folder;
   write_file(folder / "m.lua", R"(return rubble.mission { seed = 2,
@@ -269,9 +269,10 @@ TEST(CamerasSettling, AllCamerasOfTheRigWatch) {
     cameras = { front = { width = 48, height = 32, rate_hz = 10 },
                 left = { width = 32, height = 32, position = { 0, 0.5, 0 }, rpy_deg = { 0, 0, 90 } } },
     record_settling = { to = 1, rate_hz = 5, position = { -6, 0, 2 }, look_at = { 0, 0, 1 } },
+    imu = { on = true, rate_hz = 50 },
     trajectory = { rate_hz = 2, waypoints = { { t = 0, position = { -5, -4, 3 }, look_at = { 0, 0, 1 } },
                                               { t = 1, position = { 5, -4, 3 }, look_at = { 0, 0, 1 } } } },
-    outputs = { frames = true, depth = "32FC1" } })");
+    outputs = { frames = true, euroc = true, depth = "32FC1" } })");
   const Outcome run = run_rubble("run " + (folder / "m.lua") + " --quiet --out " + (folder / "out"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto expect = [&](const std::string& name, std::size_t watching, std::size_t flying) {
@@ -290,6 +291,12 @@ TEST(CamerasSettling, AllCamerasOfTheRigWatch) {
   };
   expect("front", 11, 11);
   expect("left", 6, 3);
+  std::istringstream readings(read_file(folder / "out/euroc/mav0/imu0/data.csv"));
+  std::vector<std::int64_t> stamps;
+  for (std::string line; std::getline(readings, line);)
+    if (line[0] != '#') stamps.push_back(std::stoll(line));
+  ASSERT_GT(stamps.size(), 150u);
+  for (std::size_t i = 1; i < stamps.size(); ++i) EXPECT_NEAR(double(stamps[i] - stamps[i - 1]), 2e7, 2) << i;
 }
 
 TEST(CamerasInput, MistakesAreNamed) {

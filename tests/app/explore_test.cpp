@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "app/search/depth_mapping.h"
+#include "app/search/exploration_map.h"
 #include "io/voids/occupancy_octree.h"
 
 namespace rubble::testing {

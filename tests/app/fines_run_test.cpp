@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <set>
 
-#include "app/fines/seen_fines.h"
+#include "app/fines/pile_fines.h"
 #include "app/mission/finished_run.h"
 #include "app/pipeline/stages.h"
 #include "app/scene/build_scene.h"

@@ -11,7 +11,7 @@
 #include "app/pipeline/recorders.h"
 #include "app/provenance/earlier_files.h"
 #include "io/scenes/pile_export.h"
-#include "scripting/scenario/scenario_schema.h"
+#include "scripting/scenario/mission_form.h"
 
 namespace rubble::testing {
 namespace formats_test {

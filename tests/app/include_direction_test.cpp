@@ -210,8 +210,8 @@ TEST(IncludeDirection, TheCheckSeesACrossing) {
   EXPECT_EQ(crossings("kernel/world/phases/sleep.cpp", "kernel/world/world.h"), 1u);
   EXPECT_EQ(crossings("io/datasets/tum.cpp", "render/renderer.h"), 1u);
   EXPECT_EQ(crossings("io/datasets/tum.cpp", "render/scene/frame.h"), 0u);
-  EXPECT_EQ(crossings("io/base/gzip.cpp", "io/ros/ros_wire.h"), 1u);
-  EXPECT_EQ(crossings("io/ros/bag_writer.cpp", "io/base/gzip.h"), 0u);
+  EXPECT_EQ(crossings("io/base/compressed_file.cpp", "io/ros/ros_wire.h"), 1u);
+  EXPECT_EQ(crossings("io/ros/bag_writer.cpp", "io/base/compressed_file.h"), 0u);
   EXPECT_EQ(crossings("io/voids/vdb_file.cpp", "io/ros/ros_wire.h"), 1u);
   EXPECT_EQ(crossings("render/renderer.cpp", "render/sensors/camera.h"), 1u);
   EXPECT_EQ(crossings("render/sensors/camera.cpp", "render/renderer.h"), 0u);
@@ -245,12 +245,12 @@ const std::map<std::string, Prefixes> kDoors{
     {"octomap/", {"io/voids/"}},
     {"ompl/", {"io/ompl/"}},
     {"Imf", {"io/image/exr_file.cpp"}},
-    {"png.h", {"io/image/image_file.cpp", "io/image/picture_decoder.cpp", "io/image/png_pixels.cpp"}},
+    {"png.h", {"io/image/image_file.cpp", "io/image/picture_decoder.cpp"}},
     {"tiff", {"io/image/tiff_data.cpp"}},
     {"webp/", {"io/image/data_picture.cpp"}},
     {"yaml-cpp/", {"scripting/files/yaml_value.cpp"}},
-    {"jpeglib.h", {"io/image/jpeg_file.cpp", "io/image/picture_decoder.cpp"}},
-    {"zlib.h", {"io/base/gzip.cpp", "io/base/zip_file.cpp", "io/ros/mcap_format.h"}},
+    {"jpeglib.h", {"io/image/image_file.cpp", "io/image/picture_decoder.cpp"}},
+    {"zlib.h", {"io/base/compressed_file.cpp", "io/ros/mcap_format.h"}},
     {"lz4", {"io/ros/"}},
     {"zstd.h", {"io/ros/"}},
     {"lua", {"scripting/sandbox/lua_api.h"}},

@@ -66,7 +66,7 @@ double slide(bool on_floor, double seconds) {
   World world = make_cube_world(on_floor ? 9.81 : 0, step, {0, 0, on_floor ? 1.2005 : 5});
   if (on_floor) {
     NewPiece floor;
-    floor.placement.type = 1, floor.placement.fixed = true;
+    floor.placement.kind = 1, floor.placement.fixed = true;
     floor.placement.world_from_body.translation.z = 0.9;
     world.add({floor});
     for (int i = 0; i < 240; ++i) world.step();

@@ -28,7 +28,7 @@ std::map<std::string, int> count(const Mission& mission, const AssetLibrary& ass
   std::map<std::string, int> counts;
   for (const Layer& layer : generate_pile(build_pile_spec(mission.scenario.pile, mission.scenario.seed, assets)).layers)
     for (const Placement& piece : layer.pieces)
-      ++counts[assets.types[std::size_t(piece.type)].name];
+      ++counts[assets.types[std::size_t(piece.kind.index)].name];
   return counts;
 }
 
@@ -97,7 +97,7 @@ TEST(MixMaterials, AreFoundAgainFromARecipe) {
   }
   ASSERT_EQ(again.mix.size(), assets.mix.size());
   for (std::size_t i = 0; i < again.mix.size(); ++i) {
-    EXPECT_EQ(again.mix[i].type, assets.mix[i].type);
+    EXPECT_EQ(again.mix[i].kind, assets.mix[i].kind);
     EXPECT_EQ(again.mix[i].weight, assets.mix[i].weight);
   }
 }

@@ -6,9 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "app/card/card_parts.h"
+#include "app/card/dataset_card.h"
 #include "app/card/slam_settings.h"
-#include "app/card/splits.h"
 #include "kernel/base/error.h"
 #include "tests/app/program.h"
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "app/pipeline/recorders.h"
-#include "app/sensors/contact_history.h"
+#include "app/sensors/robot_readings.h"
 #include "io/ros/ros_messages.h"
 #include "scripting/mission.h"
 #include "scripting/scenario/scenario.h"

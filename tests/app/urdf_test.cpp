@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "kernel/geometry/shape.h"
-#include "kernel/robot/looks.h"
+#include "kernel/robot/parts.h"
 #include "scripting/robots/robot_kind.h"
 #include "tests/app/urdf_robots.h"
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -29,23 +30,40 @@ TEST(ThreadPool, MeetsEveryIndexOnceInEveryRound) {
   }
 }
 
-// Each waits for all others: on fewer threads it would never end.
-TEST(ThreadPool, RunsTogetherWhatWaitsForEachOther) {
+// The caller waits until the others have come: each has an index and a thread of its own.
+TEST(ThreadPool, HelpersComeOnceEach) {
   ThreadPool pool(3);
   for (int round = 0; round < 300; ++round) {
     std::atomic<int> here{0};
     std::set<std::thread::id> ids[3];
-    pool.run_together(3, [&](int i) {
+    pool.run_with_help(3, [&](int i) {
       ids[i].insert(std::this_thread::get_id());
-      for (++here; here < 3;) std::this_thread::yield();
+      for (++here; i == 0 && here < 3 && !pool.crowded();) std::this_thread::yield();
     });
+    ASSERT_EQ(*ids[0].begin(), std::this_thread::get_id());
+    if (here < 3) continue;  // the machine is busy
     EXPECT_EQ(here, 3);
     EXPECT_NE(*ids[0].begin(), *ids[1].begin());
     EXPECT_NE(*ids[1].begin(), *ids[2].begin());
   }
 }
 
-// The caller works alone for a while, and what waits for each other is still run together.
+// A caller that does all alone in no time does not wait for threads that have not come.
+TEST(ThreadPool, NobodyWaitsForHelpersThatDoNotCome) {
+  ThreadPool pool(2);
+  for (int round = 0; round < 3000; ++round) {
+    std::atomic<int> left{1}, inside{0};
+    pool.run_with_help(2, [&](int i) {
+      ++inside;
+      if (i == 0) left = 0;
+      --inside;
+    });
+    ASSERT_EQ(left, 0);
+    ASSERT_EQ(inside, 0) << "body may be gone";
+  }
+}
+
+// The caller works alone for a while, longer when that happens again at once.
 TEST(ThreadPool, WorksAloneWhereItIsCrowded) {
   ThreadPool pool(2);
   EXPECT_FALSE(pool.crowded());
@@ -59,12 +77,21 @@ TEST(ThreadPool, WorksAloneWhereItIsCrowded) {
   if (pool.crowded()) {  // this thread was not kept away for longer
     EXPECT_EQ(ids, std::set<std::thread::id>{std::this_thread::get_id()});
   }
-  std::atomic<int> here{0};
-  pool.run_together(2, [&](int) {
-    for (++here; here < 2;) std::this_thread::yield();
-  });
-  EXPECT_EQ(here, 2);
-  while (pool.crowded()) std::this_thread::yield();  // ends by itself
+  pool.run_with_help(2, [&](int i) { EXPECT_TRUE(i == 0 || !pool.crowded()); });
+  using Clock = std::chrono::steady_clock;
+  double least = 0.05;  // unit: s
+  for (int k = 0; k < 3; ++k) {
+    while (pool.crowded()) std::this_thread::yield();  // ends by itself
+    const Clock::time_point begin = Clock::now();
+    pool.note_crowded();
+    const bool at_once = Clock::now() - begin < std::chrono::milliseconds(1);
+    while (pool.crowded()) std::this_thread::yield();
+    const double alone = std::chrono::duration<double>(Clock::now() - begin).count();
+    if (at_once) {
+      EXPECT_GE(alone, least);
+    }
+    least = at_once ? 2 * least : 0.1;
+  }
 
   ThreadPool alone(1);
   alone.note_crowded();

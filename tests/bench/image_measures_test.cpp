@@ -9,7 +9,6 @@
 #include "bench/images/image_measures.h"
 #include "bench/images/picture_file.h"
 #include "io/image/image_file.h"
-#include "io/image/jpeg_file.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"

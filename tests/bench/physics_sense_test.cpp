@@ -45,7 +45,7 @@ PileState pour_heap(double friction, std::uint64_t seed) {
     const double height = world.diagnostics().highest_point(true) + kAboveTop;
     for (int i = 0; i < kLumps; ++i) {
       const double turn = 2 * portable::kPi * (i + random.uniform(0, 0.3)) / kLumps;
-      pieces[i].placement.type = int(random.below(kChunkTypes));
+      pieces[i].placement.kind = int(random.below(kChunkTypes));
       pieces[i].placement.scale = random.uniform(kScaleMin, kScaleMax);
       pieces[i].placement.world_from_body = {
           random.rotation(),
@@ -91,7 +91,7 @@ TEST(NightlyHeap, LiesAtItsAngleOfReposeAndSteeperWithFriction) {
 
 Placement make_wall(int type, const Vec3& place) {
   Placement wall;
-  wall.type = type;
+  wall.kind = type;
   wall.world_from_body.translation = place;
   wall.fixed = true;
   return wall;

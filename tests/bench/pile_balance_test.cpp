@@ -138,7 +138,7 @@ Flap make_flap(JointKind kind, double stiffness, double rest) {
   assembly.joints = {joint};
   flap.pile.assemblies = {assembly};
   Placement placement;
-  placement.type = 1;
+  placement.kind = PieceKind::assembly(0);
   placement.world_from_body.translation = {0, 0, 2};
   placement.fixed = true;
   flap.pile.placed = {placement};

@@ -120,13 +120,12 @@ SceneResult bar_under_slab(const SceneOptions& options) {
 // joints of every kind spring, yield, meet their stops and break.
 SceneResult articulated(const SceneOptions& options) {
   PileSpec spec = testing::small_pile(104, 2, 45);
-  const int first = int(spec.types.size());
   spec.assemblies = testing::assemblies();
   for (int i = 0; i < int(spec.assemblies.size()); ++i)
-    spec.mix.push_back({first + i, 3, 0.7, 1.1});
+    spec.mix.push_back({PieceKind::assembly(i), 3, 0.7, 1.1});
   for (int i = 0; i < int(spec.assemblies.size()); ++i) {
     const Quat rotation = turned({0, 0, 1}, 0.7 * i);
-    spec.placed.push_back(at(first + i, {-1.5 + 1.5 * i, 0.4, 1.7}, rotation, i != 1).placement);
+    spec.placed.push_back(at(PieceKind::assembly(i), {-1.5 + 1.5 * i, 0.4, 1.7}, rotation, i != 1).placement);
   }
   return settle(pushed(generate_pile(spec), options.push), Schedule::layers, options);
 }

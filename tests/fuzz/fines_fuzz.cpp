@@ -1,5 +1,5 @@
 #include "io/state/fines_file.h"
-#include "kernel/geometry/fine_heaps.h"
+#include "kernel/geometry/fine_shapes.h"
 #include "tests/fuzz/fuzz_file.h"
 #include "tests/fuzz/sealed_file.h"
 

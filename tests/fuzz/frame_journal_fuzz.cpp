@@ -1,5 +1,4 @@
 #include "app/provenance/frame_hashes.h"
-#include "app/provenance/frame_journal.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

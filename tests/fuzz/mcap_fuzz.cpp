@@ -1,5 +1,5 @@
+#include "io/playback/picture_sources.h"
 #include "io/playback/recording_check.h"
-#include "io/playback/ros_pictures.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

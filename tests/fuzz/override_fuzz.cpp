@@ -1,5 +1,5 @@
 #include "kernel/base/error.h"
-#include "scripting/scenario/scenario_schema.h"
+#include "scripting/scenario/mission_form.h"
 #include "tests/fuzz/fuzz_file.h"
 
 using namespace rubble;

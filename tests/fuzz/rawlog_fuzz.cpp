@@ -1,4 +1,4 @@
-#include "io/playback/rawlog_pictures.h"
+#include "io/playback/picture_sources.h"
 #include "io/playback/recording_check.h"
 #include "tests/fuzz/fuzz_file.h"
 

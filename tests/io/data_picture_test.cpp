@@ -7,7 +7,6 @@
 #include "io/image/data_picture.h"
 #include "io/image/exr_file.h"
 #include "io/image/image_file.h"
-#include "io/image/jpeg_file.h"
 #include "io/image/picture_decoder.h"
 #include "kernel/base/error.h"
 #include "tests/io/tiff_bytes.h"

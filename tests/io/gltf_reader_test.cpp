@@ -1,5 +1,5 @@
 // glTF 2.0 as other programs write it: integer accessors, extensions, skins, morph targets, instances, places of textures.
-#include "io/mesh_formats/gltf_reader.h"
+#include "io/mesh_formats/scene_reader.h"
 
 #include <gtest/gtest.h>
 

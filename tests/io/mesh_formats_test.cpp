@@ -10,7 +10,7 @@
 #include "io/import/polygon.h"
 #include "io/import/text_scan.h"
 #include "io/mesh/mesh_file.h"
-#include "io/mesh_formats/collada_repair.h"
+#include "io/mesh_formats/scene_reader.h"
 #include "kernel/base/error.h"
 #include "tests/io/mesh_files.h"
 

@@ -6,7 +6,6 @@
 
 #include "io/base/atomic_file.h"
 #include "io/image/image_file.h"
-#include "io/image/jpeg_file.h"
 #include "io/image/picture_decoder.h"
 #include "io/mesh/mesh_file.h"
 #include "kernel/base/error.h"

@@ -14,7 +14,7 @@
 #endif
 
 #include "io/mesh/mesh_file.h"
-#include "io/mesh/track_glb.h"
+#include "io/mesh/mesh_writers.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/model/track_builder.h"

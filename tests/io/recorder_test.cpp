@@ -10,7 +10,6 @@
 
 #include "io/base/atomic_file.h"
 #include "io/datasets/tum_recorder.h"
-#include "io/image/depth_encoding.h"
 #include "io/image/image_file.h"
 #include "io/recording/contact_sheet.h"
 #include "kernel/base/error.h"

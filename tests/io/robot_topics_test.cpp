@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/base/atomic_file.h"
-#include "io/recording/one_camera.h"
+#include "io/recording/frame_order.h"
 #include "io/ros/mcap_recorder.h"
 #include "io/ros/rosbag_recorder.h"
 #include "kernel/base/portable_math.h"

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/base/atomic_file.h"
-#include "io/image/depth_encoding.h"
+#include "io/image/image_file.h"
 
 namespace rubble::test {
 namespace {

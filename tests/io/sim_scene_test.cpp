@@ -21,7 +21,6 @@
 #include "io/scenes/surface_heights.h"
 #include "kernel/base/portable_math.h"
 #include "scripting/robots/rover.h"
-#include "kernel/robot/looks.h"
 #include "kernel/robot/parts.h"
 #include "tests/io/all_recorders.h"
 #include "tests/io/small_scene.h"

@@ -8,7 +8,7 @@
 
 #include "io/base/atomic_file.h"
 #include "io/base/xml_document.h"
-#include "io/robot/urdf_meshes.h"
+#include "io/robot/urdf_elements.h"
 #include "io/robot/urdf_reader.h"
 #include "kernel/base/error.h"
 #include "kernel/base/text.h"

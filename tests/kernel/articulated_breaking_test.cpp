@@ -107,7 +107,7 @@ TEST(Articulated, PiecesOfABrokenJointComeApartAndGainNoEnergy) {
     const double mass = 2400 * 0.4 * 0.2 * 0.2;
     pair.joints[0].break_force = strength * mass * spin * spin * 0.15;
     World world({box_type("box", 0.4, 0.2, 0.2)}, options, {pair});
-    NewPiece piece = at(1, {0, 0, 5});
+    NewPiece piece = at(PieceKind::assembly(0), {0, 0, 5});
     piece.angular_velocity = {0, 0, spin};
     piece.linear_velocity = {0, -0.15 * spin, 0};
     world.add({piece});

@@ -22,7 +22,7 @@ TEST(ArticulatedPile, AChainOfSlabsComesToRest) {
   World world(testing::rubble_types(), {}, testing::assemblies());
   std::vector<NewPiece> pieces;
   for (int i = 0; i < 6; ++i) pieces.push_back(at(3, {0.5 * i, 0.1 * (i % 3), 0.15}));
-  pieces.push_back(at(8, {0, 0, 1.2}, turned({1, 1, 0}, 0.3)));
+  pieces.push_back(at(PieceKind::assembly(0), {0, 0, 1.2}, turned({1, 1, 0}, 0.3)));
   const int first = world.add(pieces) + 6;
   EXPECT_EQ(world.size(), 10);
   EXPECT_TRUE(testing::run_to_rest(world, 6));
@@ -49,9 +49,9 @@ TEST(ArticulatedPile, AChainOfSlabsComesToRest) {
 PileSpec mixed_pile(std::uint64_t seed) {
   PileSpec spec = testing::small_pile(seed, 2, 40);
   spec.assemblies = testing::assemblies();
-  spec.mix.push_back({int(spec.types.size()), 3, 0.7, 1.1});
-  spec.mix.push_back({int(spec.types.size()) + 1, 3, 0.7, 1.1});
-  spec.placed = {at(int(spec.types.size()), {0, 0, 1.2}, {}, true).placement};
+  spec.mix.push_back({PieceKind::assembly(0), 3, 0.7, 1.1});
+  spec.mix.push_back({PieceKind::assembly(1), 3, 0.7, 1.1});
+  spec.placed = {at(PieceKind::assembly(0), {0, 0, 1.2}, {}, true).placement};
   return spec;
 }
 
@@ -106,7 +106,7 @@ TEST(ArticulatedPile, LayersDropAssembliesWithoutOverlap) {
   const Pile pile = generate_pile(mixed_pile(63));
   int assemblies = 0;
   for (const Layer& layer : pile.layers) {
-    for (const Placement& p : layer.pieces) assemblies += p.type >= int(pile.types.size());
+    for (const Placement& p : layer.pieces) assemblies += p.kind.is_assembly;
   }
   EXPECT_GT(assemblies, 3);
   EXPECT_EQ(pile.layers[0].pieces.size(), 40u);

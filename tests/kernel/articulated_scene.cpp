@@ -32,7 +32,7 @@ World make_world(const AssemblyType& assembly, double length, const WorldOptions
 }
 
 NewPiece hung(const Vec3& position, const Quat& rotation) {
-  return at(2, position, rotation, true);
+  return at(PieceKind::assembly(0), position, rotation, true);
 }
 
 double measure_period(World& world, int piece, double seconds) {

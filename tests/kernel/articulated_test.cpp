@@ -87,7 +87,7 @@ TEST(Articulated, WeldedLinksMoveAsOneRigidPiece) {
     const std::vector<PieceType> types = {box_type("a", 0.3, 0.3, 0.3),
                                           box_type("b", 0.6, 0.2, 0.2), dumbbell};
     World tree(types, options, {welded}), piece(types, options);
-    NewPiece one = at(3, {0, 0, height}, turned({1, 2, 3}, 0.3));
+    NewPiece one = at(PieceKind::assembly(0), {0, 0, height}, turned({1, 2, 3}, 0.3));
     NewPiece other = at(2, {0, 0, height}, turned({1, 2, 3}, 0.3));
     tree.add({one});
     piece.add({other});
@@ -123,7 +123,7 @@ TEST(Articulated, AFreeTreeHitByAFreePieceKeepsMomentum) {
       make_world(make_chain(4, length, true, joint_of(JointKind::ball)), length, options, 0.1);
   NewPiece bullet = at(1, {1.3, 0.02, 7}, turned({1, 1, 0}, 0.7));
   bullet.linear_velocity = {0.2, 0, -3};
-  world.add({at(2, {0, 0, 5}), bullet});
+  world.add({at(PieceKind::assembly(0), {0, 0, 5}), bullet});
   const Vec3 before = world.diagnostics().linear_momentum(), turning = world.diagnostics().angular_momentum();
   const double energy = world.diagnostics().kinetic_energy();
   double last = energy;
@@ -250,7 +250,7 @@ TEST(Articulated, ATreeOf200LinksFallsAndRests) {
   JointType joint = joint_of(JointKind::ball);
   joint.friction = 2;
   World world = make_world(make_chain(199, 0.3, true, joint), 0.3, {}, 0.1);
-  world.add({at(2, {-30, 0, 0.3}, {}, false)});
+  world.add({at(PieceKind::assembly(0), {-30, 0, 0.3}, {}, false)});
   const double length = 0.3 * 199;
   EXPECT_TRUE(testing::run_to_rest(world, 8));
   double farthest = 0;

@@ -7,8 +7,7 @@
 #include "kernel/base/error.h"
 #include "kernel/geometry/height_field.h"
 #include "kernel/structure/building.h"
-#include "kernel/structure/buildings/site.h"
-#include "kernel/structure/standing.h"
+#include "kernel/structure/failure.h"
 #include "tests/kernel/member_scenes.h"
 
 namespace rubble {

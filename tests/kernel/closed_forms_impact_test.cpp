@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "closed_forms.h"
 #include "kernel/world/world_diagnostics.h"
@@ -127,6 +128,37 @@ TEST(ClosedFormImpact, ThreeHundredKilogramsSweepTwoAlongTheGround) {
   EXPECT_GT(world.piece(0).world_from_body.translation.x,
             world.piece(1).world_from_body.translation.x + 0.34);
   EXPECT_NEAR(world.piece(1).linear_velocity.x, expected, 0.02 * expected);
+}
+
+// 1,229 kg slide into what stands on the ground, with the friction of concrete: it is pushed ahead at the speed of the
+// heavy one, and no part of it ends inside. Both lose 2/3 g t by friction.
+TEST(ClosedFormImpact, TwelveHundredKilogramsPushAheadWhatStandsOnTheGround) {
+  for (const double rate : {60.0, 240.0}) {
+    for (const double light : {2.0, 10.0, 50.0}) {
+      for (const double speed : {10.0, 15.0, 20.0, 30.0}) {
+        const double edge = std::cbrt(light / 2400);
+        WorldOptions options = awake_options();
+        options.step = 1 / rate;
+        World world({box_type("heavy", 0.8, 0.8, 0.8), box_type("light", edge, edge, edge)}, options);
+        NewPiece heavy = at(0, {-0.8, 0, 0.401});
+        heavy.linear_velocity = {speed, 0, 0};
+        world.add({heavy, at(1, {0, 0.03, edge / 2 + 0.001})});
+        double overlap = 0, pushed = 0;
+        while (world.time() < 0.4) {
+          world.step();
+          overlap = std::max(overlap, world.diagnostics().deepest_overlap().depth);
+          pushed = std::max(pushed, world.piece(1).linear_velocity.x);
+        }
+        const PieceState hitting = world.piece(0), hit = world.piece(1);
+        const std::string label =
+            std::to_string(rate) + " Hz, " + std::to_string(light) + " kg, " + std::to_string(speed) + " m/s";
+        EXPECT_GT(hit.world_from_body.translation.x, hitting.world_from_body.translation.x + 0.3) << label;
+        EXPECT_NEAR(pushed, speed * 1229 / (1229 + light), 0.02 * speed + 0.3) << label;
+        EXPECT_NEAR(hit.linear_velocity.x, hitting.linear_velocity.x, 0.04 * speed) << label;
+        EXPECT_LT(overlap, 0.03) << label;
+      }
+    }
+  }
 }
 
 // A heavy box sleeps on ground without friction; light ones hit it one after the other, each at the

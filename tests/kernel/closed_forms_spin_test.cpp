@@ -166,16 +166,16 @@ TEST(ClosedFormSpin, ThePatchUnderACornerBrakesASpinAboutIt) {
   const double braking = friction * kG * patch * 6 / (edge * edge);  // unit: rad/s2
   const Vec3 axis = normalized(cross(Vec3{1, 1, 1}, Vec3{0, 0, 1}));
   const Quat on_corner = turned(axis, std::acos(1 / std::sqrt(3.0)));
-  for (const int type : {0, 2}) {
+  for (const PieceKind kind : {PieceKind(0), PieceKind::assembly(0)}) {
     World world({box_type("cube", edge, edge, edge), box_type("half", edge, edge, edge / 2)},
                 awake_options(), {make_halves(edge)});
-    NewPiece cube = at(type, {0, 0, edge * std::sqrt(0.75) + 0.001}, on_corner);
+    NewPiece cube = at(kind, {0, 0, edge * std::sqrt(0.75) + 0.001}, on_corner);
     cube.angular_velocity = {0, 0, start};
     world.add({cube});
     run(world, 0.1);  // it is at rest but for the spin from the first step on
-    EXPECT_NEAR(world.piece(0).angular_velocity.z, start - 0.1 * braking, 0.03 * start) << type;
+    EXPECT_NEAR(world.piece(0).angular_velocity.z, start - 0.1 * braking, 0.03 * start) << kind.is_assembly;
     run(world, start / braking - 0.1 + 0.02);
-    EXPECT_NEAR(world.piece(0).angular_velocity.z, 0, 0.01 * start) << type;
+    EXPECT_NEAR(world.piece(0).angular_velocity.z, 0, 0.01 * start) << kind.is_assembly;
   }
 }
 

@@ -35,7 +35,7 @@ AssemblyType make_hanging(int count) {
 double swing(int count, double angle, double seconds) {
   World world({box_type("block", 0.1, 0.1, 0.1), box_type("bar", 0.04, 0.04, 1)}, awake_options(),
               {make_hanging(count)});
-  world.add({at(2, {0, 0, 6}, turned({0, 1, 0}, angle), true)});
+  world.add({at(PieceKind::assembly(0), {0, 0, 6}, turned({0, 1, 0}, angle), true)});
   const double bar = world.mass(1);
   double lowest = 0;  // all bars upright
   for (int i = 0; i < count; ++i) lowest += bar * kG * (6 - 0.5 - i);
@@ -69,7 +69,7 @@ World make_sliding(const Vec3& speed, double spin, bool sleeping) {
   WorldOptions options;
   options.sleeping = sleeping;
   World world({slab}, options, {pair});
-  world.add({at(1, {0, 0, 0.051})});
+  world.add({at(PieceKind::assembly(0), {0, 0, 0.051})});
   const Vec3 arm{-0.425, 0, 0};  // of the first link from the middle
   world.set_velocity(0, speed + cross(Vec3{0, 0, spin}, arm), {0, 0, spin});
   return world;
@@ -109,7 +109,7 @@ TEST(ClosedFormTree, ASlowPendulumThatLiesOnASmoothRampSwingsOn) {
   World world({box_type("post", 0.05, 0.05, 0.05), arm, ramp}, awake_options(), {swing});
   const Quat down = turned({0, 1, 0}, slope);
   world.add({at(2, {0, 0, 3}, down, true),
-             at(3, Vec3{0, 0, 3} + down.rotate({0, 0, 0.5 + thick / 2 + 0.001}),
+             at(PieceKind::assembly(0), Vec3{0, 0, 3} + down.rotate({0, 0, 0.5 + thick / 2 + 0.001}),
                 down * turned({0, 0, 1}, angle), true)});
   const double gyration_squared = (length * length + thick * thick) / 12 + from_joint * from_joint;
   const double period = 2 * 3.14159265358979 * (1 + angle * angle / 16) *

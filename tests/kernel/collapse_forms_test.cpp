@@ -6,8 +6,7 @@
 
 #include "kernel/settling/collapse.h"
 #include "kernel/structure/building.h"
-#include "kernel/structure/remaining_bars.h"
-#include "kernel/structure/standing.h"
+#include "kernel/structure/failure.h"
 #include "kernel/world/world_structures.h"
 #include "scenes.h"
 

@@ -10,7 +10,7 @@
 #include "kernel/settling/collapse.h"
 #include "kernel/settling/settle.h"
 #include "kernel/structure/building.h"
-#include "kernel/structure/standing.h"
+#include "kernel/structure/failure.h"
 
 namespace rubble {
 namespace collapse_test {
@@ -185,7 +185,7 @@ TEST(Collapse, AnImpactBreaksOnlyWhatItHasTheEnergyFor) {
     World world(types);
     Collapse collapse(world, s, 0, {});
     NewPiece piece;
-    piece.placement.type = int(types.size()) - 1;
+    piece.placement.kind = int(types.size()) - 1;
     piece.placement.world_from_body.translation = {0, 0, 2.3 + 0.25 + 0.002};
     piece.linear_velocity = {0, 0, -std::sqrt(2 * 9.81 * height)};
     const int number = world.add({piece});

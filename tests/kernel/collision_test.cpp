@@ -206,17 +206,18 @@ TEST(PlacedOverlaps, AreFoundWithTheirDepth) {
   const std::vector<PieceType> types{testing::box_type("slab", 4, 4, 0.2), testing::box_type("box", 1, 1, 1)};
   const auto place = [](int type, const Vec3& at, bool fixed) {
     Placement placement;
-    placement.type = type, placement.fixed = fixed;
+    placement.kind = type, placement.fixed = fixed;
     placement.world_from_body.translation = at;
     return placement;
   };
   const std::vector<Placement> placed{place(0, {0, 0, 0.1}, true), place(1, {1, 0, 0.67}, false), place(1, {-1, 0, 0.7}, false)};
-  const std::vector<PlacedOverlap> found = find_placed_overlaps(types, placed, 0.005);
+  const std::vector<PlacedOverlap> found = find_placed_overlaps(types, placed, 3, 0.005);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].a, 0);
   EXPECT_EQ(found[0].b, 1);
   EXPECT_NEAR(found[0].depth, 0.03, 1e-5);
-  EXPECT_TRUE(find_placed_overlaps(types, placed, 0.04).empty());
+  EXPECT_TRUE(find_placed_overlaps(types, placed, 3, 0.04).empty());
+  EXPECT_EQ(find_placed_overlaps(types, placed, 1, 0.005).size(), found.size());  // all with the first
 }
 
 }  // namespace collision_test

@@ -10,9 +10,8 @@
 #include <stdexcept>
 
 #include "kernel/base/random.h"
-#include "kernel/fines/catenary.h"
-#include "kernel/fines/room_for_fines.h"
-#include "kernel/geometry/fine_heaps.h"
+#include "kernel/fines/fine_sites.h"
+#include "kernel/fines/strands.h"
 #include "kernel/geometry/fine_shapes.h"
 #include "kernel/queries/queries.h"
 #include "scenes.h"

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "kernel/base/random.h"
+#include "kernel/solver/contact_law.h"
 #include "kernel/solver/friction_axes.h"
 #include "kernel/world/world.h"
 #include "scenes.h"
@@ -44,6 +45,26 @@ TEST(FrictionAxes, StayWhereNothingIsCoupled) {
     const PlaneTurn<double> turn = find_friction_axes(k00, 0.0, k11);
     EXPECT_EQ(turn.cosine, 1);
     EXPECT_EQ(turn.sine, 0);
+  }
+}
+
+// Next to nothing, very much and zero: no slip becomes infinite, and the impulse shrinks.
+TEST(FrictionLaw, TakesNumbersOfAnySize) {
+  RandomStream random(1, "friction law");
+  const auto number = [&random](int lowest, int highest) {
+    const bool nothing = random.uniform(0, 1) < 0.1;
+    const double size = random.uniform(lowest, highest), sign = random.uniform(-1, 1);
+    return nothing ? 0.0F : float(std::copysign(std::pow(10.0, size), sign));
+  };
+  for (int i = 0; i < 100000; ++i) {
+    const float limit = std::abs(number(-44, 6));
+    float masses[3], sticking[3];
+    for (float& mass : masses) mass = std::abs(number(-6, 6));
+    for (float& impulse : sticking) impulse = number(-44, 6);
+    const contact_law::Slip<float> slip = contact_law::find_slip(limit, masses, sticking);
+    ASSERT_TRUE(std::isfinite(slip.slide) && std::isfinite(slip.twist)) << i;
+    ASSERT_GE(slip.slide, 0) << i;
+    ASSERT_GE(slip.twist, 0) << i;
   }
 }
 

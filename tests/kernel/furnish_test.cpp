@@ -32,7 +32,7 @@ std::vector<Aabb> boxes_of(const Pile& pile) {
   std::vector<Aabb> boxes;
   for (const Placement& placement : pile.placed) {
     Aabb box;
-    for (const ConvexPart& part : pile.types[placement.type].parts) {
+    for (const ConvexPart& part : pile.types[placement.kind.index].parts) {
       for (const Vec3& point : part.points) box.include(placement.world_from_body * point);
     }
     boxes.push_back(box);
@@ -48,7 +48,7 @@ TEST(Furnish, StandsOnEveryFloorAndOnTheRoofIfAsked) {
     const Aabb box = boxes_of(pile)[std::size_t(&placement - pile.placed.data())];
     const int floor = int(std::lround(box.min.z / spec.building.storey_height));
     EXPECT_NEAR(box.min.z, floor * spec.building.storey_height, 0.003);
-    ++(placement.type == 0 ? cupboards : tables)[floor];
+    ++(placement.kind == 0 ? cupboards : tables)[floor];
     EXPECT_FALSE(placement.fixed);
   }
   EXPECT_EQ(cupboards, (std::map<int, int>{{0, 6}, {1, 6}}));

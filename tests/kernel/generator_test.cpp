@@ -39,7 +39,7 @@ TEST(Generator, PiecesStayAboveTheBottom) {
   const Pile pile = generate_pile(testing::small_pile(4));
   for (const Layer& layer : pile.layers) {
     for (const Placement& p : layer.pieces) {
-      for (const ConvexPart& part : pile.types[p.type].parts) {
+      for (const ConvexPart& part : pile.types[p.kind.index].parts) {
         for (const Vec3& v : part.points) EXPECT_GE((p.world_from_body * (v * p.scale)).z, -1e-9);
       }
     }
@@ -78,7 +78,7 @@ TEST(Generator, ADensityIsDrawnInProportion) {
   double count[4] = {}, all = 0;
   for (const Layer& layer : generate_pile(spec).layers) {
     for (const Placement& p : layer.pieces) {
-      const Shape shape = compile_shape(spec.types[p.type], "");
+      const Shape shape = compile_shape(spec.types[p.kind.index], "");
       const Vec3 centre = p.world_from_body * (shape.volume.centre_of_mass * p.scale);
       EXPECT_LT(std::abs(centre.x - 3), 4);
       EXPECT_LT(std::abs(centre.y + 1), 4);
@@ -116,7 +116,7 @@ TEST(Generator, AllMistakesAreNamedAtOnce) {
   PileSpec spec = testing::small_pile(1);
   spec.layers = -1;
   spec.spawn_bounds.y = 0;
-  spec.mix[2].type = 99;
+  spec.mix[2].kind = 99;
   try {
     generate_pile(spec);
     FAIL() << "no error";

@@ -27,7 +27,7 @@ std::vector<NewPiece> make_row(int count, double height) {
   std::vector<NewPiece> pieces;
   for (int i = 0; i < count; ++i) {
     NewPiece p;
-    p.placement.type = i % 2;
+    p.placement.kind = i % 2;
     p.placement.fixed = true;
     p.placement.world_from_body.translation = {0.3 * i, 0.05 * i, height + 0.02 * i * i};
     pieces.push_back(p);
@@ -121,7 +121,7 @@ TEST(Groups, WhatBreaksUnderAnImpactDoesNotStopIt) {
   }
   world.structures().bind(world.add(plate), 2);
   NewPiece block;
-  block.placement.type = 1;
+  block.placement.kind = 1;
   block.placement.world_from_body.translation = {0, 0, 2.4};
   block.linear_velocity = {0, 0, -6};
   const int number = world.add({block});

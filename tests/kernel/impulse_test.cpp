@@ -83,7 +83,7 @@ TEST(Impulse, OnALinkGoesThroughItsTreeAndKeepsMomentum) {
   const AssemblyType chain = testing::make_chain(3, 0.5, true, testing::joint_of(JointKind::hinge));
   World world = testing::make_world(chain, 0.5, weightless());
   NewPiece free;
-  free.placement.type = 2;
+  free.placement.kind = PieceKind::assembly(0);
   free.placement.world_from_body.translation = {0, 0, 4};
   const int first = world.add({free}), last = world.size() - 1;
   ASSERT_GE(last - first, 2);

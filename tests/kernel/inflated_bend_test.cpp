@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "kernel/multibody/springs/inflated_bend.h"
+#include "kernel/multibody/springs/tree_springs.h"
 
 namespace rubble {
 namespace inflated_bend_test {

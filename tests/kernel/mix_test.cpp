@@ -45,7 +45,7 @@ PileSpec spec_of(std::vector<MixEntry> mix, std::uint64_t seed) {
 std::vector<int> count_types(const Pile& pile) {
   std::vector<int> counts(pile.types.size(), 0);
   for (const Layer& layer : pile.layers)
-    for (const Placement& piece : layer.pieces) ++counts[std::size_t(piece.type)];
+    for (const Placement& piece : layer.pieces) ++counts[std::size_t(piece.kind.index)];
   return counts;
 }
 

@@ -125,7 +125,7 @@ World make_loaded_plate(double ratio, double x, bool tree) {
   World world({box_type("peg", 0.04, 0.04, 0.2), plate, block, box_type("weight", 0.04, 0.04, 0.02)},
               options, {pair});
   world.add({at(0, {-0.3, 0.2, 0.1}, {}, true), at(0, {-0.3, -0.2, 0.1}, {}, true),
-             at(0, {0.35, 0, 0.1}, {}, true), at(tree ? 4 : 1, {0, 0, 0.21}),
+             at(0, {0.35, 0, 0.1}, {}, true), at(tree ? PieceKind::assembly(0) : PieceKind(1), {0, 0, 0.21}),
              at(2, {x, 0, 0.396}, turned({0, 0, 1}, 0.4))});
   return world;
 }

@@ -24,7 +24,7 @@ const Settled& settled_pile() {
     PileSpec spec = testing::small_pile(5, 2, 50);
     spec.assemblies = testing::assemblies();
     for (std::size_t i = 0; i < spec.assemblies.size(); ++i) {
-      spec.mix.push_back({int(spec.types.size() + i), 0.3, 1, 1});
+      spec.mix.push_back({PieceKind::assembly(int(i)), 0.3, 1, 1});
     }
     spec.spawn_bounds = {3, 3, 3};
     Settled s;

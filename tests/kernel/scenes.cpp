@@ -201,9 +201,9 @@ std::vector<AssemblyType> assemblies() {
   return {chain, frame};
 }
 
-NewPiece at(int type, const Vec3& position, const Quat& rotation, bool fixed) {
+NewPiece at(PieceKind kind, const Vec3& position, const Quat& rotation, bool fixed) {
   NewPiece piece;
-  piece.placement.type = type;
+  piece.placement.kind = kind;
   piece.placement.world_from_body = {rotation, position};
   piece.placement.fixed = fixed;
   return piece;

@@ -34,7 +34,7 @@ std::vector<NewPiece> pieces_on_hills();  // the terrain, fixed, and 40 pieces a
 // drawer on a slider, a welded bundle; joints that break at loads which a pile reaches.
 std::vector<AssemblyType> assemblies();
 
-NewPiece at(int type, const Vec3& position, const Quat& rotation = {}, bool fixed = false);
+NewPiece at(PieceKind kind, const Vec3& position, const Quat& rotation = {}, bool fixed = false);
 Quat turned(const Vec3& axis, double angle);
 
 // Steps until rest (0.05 m/s, 0.2 rad/s) or until `seconds` are over; true at rest.

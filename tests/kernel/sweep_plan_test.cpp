@@ -1,11 +1,14 @@
 // SweepPlan: whoever solves what, each body meets its contacts in the order in which they were added.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
 #include <set>
 #include <thread>
 #include <vector>
 
 #include "kernel/base/random.h"
+#include "kernel/solver/contact_colours.h"
 #include "kernel/solver/sweep_plan.h"
 #include "kernel/solver/sweep_progress.h"
 #include "kernel/world/world.h"
@@ -31,6 +34,12 @@ std::vector<Touch> make_touches() {
     touches.push_back({a, b, 1 + int(random.below(6))});
   }
   return touches;
+}
+
+std::vector<std::int32_t> make_sequence(std::size_t count) {
+  std::vector<std::int32_t> sequence(count);
+  std::iota(sequence.begin(), sequence.end(), 0);
+  return sequence;
 }
 
 std::vector<std::uint8_t> make_domains(int count) {
@@ -143,14 +152,122 @@ TEST(SweepPlan, EveryContactIsInOneLaneAndNoBatchHasABodyTwice) {
   EXPECT_EQ(lanes, kContacts);
 }
 
+std::vector<std::int32_t> order_by_colour(const std::vector<Touch>& touches, int bodies, int& colours) {
+  ContactColours by_colour;
+  by_colour.begin(std::size_t(bodies));
+  for (std::size_t i = 0; i < touches.size(); ++i) by_colour.add(std::int32_t(i), touches[i].a, touches[i].b);
+  std::vector<std::int32_t> order = by_colour.finish();
+  colours = by_colour.count();
+  return order;
+}
+
+SweepFigures plan_one_thread(const std::vector<Touch>& touches, const std::vector<std::int32_t>& order, int bodies) {
+  const std::vector<std::uint8_t> domains(std::size_t(bodies), 0);
+  SweepPlan plan;
+  plan.begin(1, domains);
+  for (std::int32_t i : order) plan.add(i, touches[i].a, touches[i].b, touches[i].rows);
+  plan.finish();
+  return plan.figures();
+}
+
+// A chain has a contact of each colour at most, and there are fewer colours than contacts of two bodies.
+TEST(ContactColours, BoundTheChains) {
+  std::vector<Touch> touches = make_touches();
+  std::stable_sort(touches.begin(), touches.end(), [](const Touch& s, const Touch& t) { return s.a < t.a; });
+  std::vector<int> contacts_of(kBodies + 1, 0);
+  for (const Touch& t : touches) ++contacts_of[t.a], ++contacts_of[t.b];
+  const int most = *std::max_element(contacts_of.begin(), contacts_of.end() - 1);
+  int colours = 0;
+  const std::vector<std::int32_t> order = order_by_colour(touches, kBodies, colours);
+  const SweepFigures bottom_up = plan_one_thread(touches, make_sequence(touches.size()), kBodies);
+  const SweepFigures coloured = plan_one_thread(touches, order, kBodies);
+  EXPECT_GE(colours, most);
+  EXPECT_LT(colours, 2 * most);
+  EXPECT_LE(coloured.chain, colours);
+  EXPECT_LT(2 * coloured.chain, bottom_up.chain);
+  EXPECT_LT(2 * coloured.longest, bottom_up.longest);
+}
+
+// A wall in which each brick lies on two: four contacts each, so the first colours come up again in each course.
+TEST(ContactColours, OrderByColourAndBottomUpWithin) {
+  constexpr int kWide = 10, kHigh = 20, kBricks = kWide * kHigh;
+  std::vector<Touch> touches;
+  for (int i = 0; i < kBricks; ++i) {
+    for (int below : {i - kWide, i - kWide + 1}) touches.push_back({i, i < kWide ? kBricks : below, 4});
+  }
+  int colours = 0;
+  const std::vector<std::int32_t> order = order_by_colour(touches, kBricks, colours);
+  EXPECT_LE(colours, 7);
+  EXPECT_EQ(std::set<std::int32_t>(order.begin(), order.end()).size(), touches.size());
+  const auto falls = [](std::int32_t before, std::int32_t after) { return after < before; };
+  int descents = 0;
+  for (std::size_t i = 1; i < order.size(); ++i) descents += falls(order[i - 1], order[i]) ? 1 : 0;
+  EXPECT_LT(descents, colours);
+  EXPECT_LE(plan_one_thread(touches, order, kBricks).chain, colours);
+  EXPECT_GE(plan_one_thread(touches, make_sequence(touches.size()), kBricks).chain, kHigh);
+}
+
+// Stones side by side that lie on the same slabs: each slab has more contacts than there are colours, and the rest meet it
+// one after the other, bottom up.
+TEST(ContactColours, ABodyMayHaveMoreContactsThanThereAreColours) {
+  constexpr int kSlabs = 8, kStones = 3 * ContactColours::kMostColours;
+  std::vector<Touch> touches;  // slabs have the last numbers
+  for (int i = 0; i < kStones; ++i) {
+    for (int slab = 0; slab < kSlabs; ++slab) touches.push_back({i, kStones + slab, 4});
+  }
+  int colours = 0;
+  const std::vector<std::int32_t> order = order_by_colour(touches, kStones + kSlabs, colours);
+  EXPECT_EQ(colours, ContactColours::kMostColours);
+  std::vector<int> last(kStones + kSlabs, -1);  // of those that share the last colour, by slab
+  const std::vector<std::int32_t> rest(order.end() - kStones, order.end());
+  for (std::int32_t i : rest) {
+    EXPECT_LT(last[touches[i].b], i);
+    last[touches[i].b] = i;
+  }
+  EXPECT_EQ(std::set<std::int32_t>(order.begin(), order.end()).size(), touches.size());
+}
+
+// What does not move joins no islands and has no colours.
+TEST(ContactColours, WhatDoesNotMoveJoinsNothing) {
+  constexpr int kStones = 100;
+  std::vector<Touch> touches;
+  for (int i = 0; i < kStones; ++i) touches.push_back({i, kStones, 4});
+  int colours = 0;
+  EXPECT_EQ(order_by_colour(touches, kStones, colours), make_sequence(touches.size()));
+  EXPECT_EQ(colours, 0);
+  order_by_colour({}, 0, colours);
+  EXPECT_EQ(colours, 0);
+}
+
+// A column of boxes beside a heap: the heap's contacts are coloured, those of the column stay bottom up and come first.
+TEST(ContactColours, TowersStayBottomUp) {
+  constexpr int kBoxes = 30;
+  std::vector<Touch> touches = make_touches();
+  for (Touch& t : touches) {
+    t.a += kBoxes;
+    t.b += kBoxes;  // what did not move does not move
+  }
+  const std::size_t heap = touches.size();
+  for (int i = 0; i < kBoxes; ++i) touches.push_back({i, i == 0 ? kBodies + kBoxes : i - 1, 4});
+  int colours = 0;
+  const std::vector<std::int32_t> order = order_by_colour(touches, kBodies + kBoxes, colours);
+  for (int i = 0; i < kBoxes; ++i) EXPECT_EQ(order[std::size_t(i)], std::int32_t(heap) + i);
+  EXPECT_FALSE(std::is_sorted(order.begin() + kBoxes, order.end()));
+  // One piece of the heap that leans on the column makes them one island.
+  touches.push_back({0, kBoxes, 4});
+  EXPECT_NE(order_by_colour(touches, kBodies + kBoxes, colours)[0], std::int32_t(heap));
+}
+
 TEST(SweepPlan, FiguresSayWhatThreadsGain) {
   const std::vector<Touch> touches = make_touches();
+  int colours = 0;
+  const std::vector<std::int32_t> order = order_by_colour(touches, kBodies, colours);
   std::int64_t alone = 0;
   for (int count : {1, 2, 7}) {
     const std::vector<std::uint8_t> domains = make_domains(count);
     SweepPlan plan;
     plan.begin(count, domains);
-    for (int i = 0; i < kContacts; ++i) plan.add(i, touches[i].a, touches[i].b, touches[i].rows);
+    for (std::int32_t i : order) plan.add(i, touches[i].a, touches[i].b, touches[i].rows);
     plan.finish();
     const SweepFigures f = plan.figures();
     EXPECT_EQ(f.threads, count);

@@ -190,7 +190,7 @@ TEST(Terrain, ALevelFieldIsAsGoodAsTheGround) {
       spec.types.push_back(terrain_type(16, 0.25, [](double, double) { return 1.0; }));
       spec.types.back().friction = 0.6;
       Placement terrain;
-      terrain.type = int(spec.types.size()) - 1;
+      terrain.kind = int(spec.types.size()) - 1;
       terrain.fixed = true;
       spec.placed.push_back(terrain);
       spec.spawn_position.z += 1;
@@ -255,7 +255,7 @@ TEST(Terrain, ASnapshotIsOfItsOwnTerrain) {
 TEST(Terrain, TreesOfBodiesRestOnIt) {
   std::vector<PieceType> types = hilly_types();
   World world(types, {}, testing::assemblies());
-  world.add({at(8, {}, {}, true), at(int(types.size()), {-1, 0, 2.4}), at(int(types.size()) + 1, {-1, 1.5, 2.4})});
+  world.add({at(8, {}, {}, true), at(PieceKind::assembly(0), {-1, 0, 2.4}), at(PieceKind::assembly(1), {-1, 1.5, 2.4})});
   ASSERT_TRUE(run_to_rest(world, 10));
   for (int i = 1; i < world.size(); ++i) EXPECT_GT(world.piece(i).world_from_body.translation.z, 0.9);
 }

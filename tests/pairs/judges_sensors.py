@@ -8,7 +8,7 @@ import geometry
 from dataset import need
 from judges_motion import carrier_poses
 
-LATITUDE, LONGITUDE = 42.36, -71.06  # where a mission without a place is
+LATITUDE, LONGITUDE = 42.36, -71.06  # where a mission without a place is; unit: degree
 KINDS = ("range_finders", "bumpers", "attitudes", "barometers", "magnetometers", "gnss")
 
 
@@ -61,17 +61,29 @@ def fields_meet_poses(data):
             need(wrong < 1e-3 * np.linalg.norm(field), "%s at %d ns: the field is %.3g T beside the Earth's", name, stamp, wrong)
 
 
+def metres_a_degree(latitude, altitude):
+    """To the north and to the east, on the ellipsoid of WGS 84."""
+    axis, squared = 6378137.0, 6.69437999014e-3
+    flat = 1 - squared * math.sin(math.radians(latitude)) ** 2
+    north, east = axis * (1 - squared) / flat**1.5 + altitude, axis / math.sqrt(flat) + altitude
+    return math.radians(north), math.radians(east * math.cos(math.radians(latitude)))
+
+
 def fixes_meet_poses(data):
     """Those without noise, where there is a fix."""
     for _, name, settings in sensors(data, "gnss"):
         table = read_table(data, name)
         for stamp, values in table.items():
             need(values[3] >= 4 or math.isnan(values[0]), "%s at %d ns: a fix of %d satellites", name, stamp, values[3])
-        north = math.radians(data.scenario["light"]["north_deg"])
+        light = data.scenario["light"]
+        north = math.radians(light["north_deg"])
+        by_place = data.row.get("light") == "by_place"
+        latitude, longitude = (light["latitude_deg"], light["longitude_deg"]) if by_place else (LATITUDE, LONGITUDE)
+        north_metres, east_metres = metres_a_degree(latitude, settings["altitude"])
         for stamp, values, place, _ in mounted(data, name, settings):
             if math.isnan(values[0]):
                 continue
-            up = (values[0] - LATITUDE) * 111074, (values[1] - LONGITUDE) * 82386
+            up = (values[0] - latitude) * north_metres, (values[1] - longitude) * east_metres
             found = [up[1] * math.sin(north) + up[0] * math.cos(north), up[0] * math.sin(north) - up[1] * math.cos(north),
                      values[2] - settings["altitude"]]
             wrong = float(np.linalg.norm(np.array(found) - place))

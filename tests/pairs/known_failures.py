@@ -9,8 +9,6 @@ def any_row(row):
 
 # (name, judge, pattern of the text, which rows, cause)
 KNOWN = [
-    ("imu-pauses", "imu_is_steady", r"pauses", lambda row: row.get("record_settling", "off") != "off",
-     "with record_settling, inertial units are silent between the last picture of the settling and the flight"),
 ]
 
 

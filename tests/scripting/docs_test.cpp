@@ -11,8 +11,8 @@
 #include "scripting/mission.h"
 #include "scripting/reference/schema_docs.h"
 #include "scripting/sandbox/lua_sandbox.h"
+#include "scripting/scenario/mission_form.h"
 #include "scripting/scenario/scenario.h"
-#include "scripting/scenario/scenario_schema.h"
 
 namespace rubble {
 namespace docs_test {

@@ -14,11 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "io/voids/octomap_file.h"
-#include "io/voids/vdb_file.h"
-#include "io/voids/void_json.h"
-#include "io/voids/void_picture.h"
-#include "io/voids/void_surface.h"
+#include "io/voids/void_files.h"
 #include "kernel/base/mesh.h"
 #include "void_scenes.h"
 

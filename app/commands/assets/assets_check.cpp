@@ -5,7 +5,7 @@
 
 #include "app/assets/asset_library.h"
 #include "app/assets/assets_tree.h"
-#include "app/assets/hull_error.h"
+#include "app/assets/convex_parts.h"
 #include "app/command_line/command.h"
 #include "app/support/print.h"
 #include "render/materials/surface_appearance.h"

@@ -12,7 +12,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/support/print.h"
-#include "app/support/run_context.h"
+#include "app/support/run_request.h"
 #include "io/image/picture_sheet.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/geometry/hull.h"

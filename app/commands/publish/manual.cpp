@@ -2,7 +2,6 @@
 #include <memory>
 
 #include "app/command_line/command.h"
-#include "app/command_line/command_reference.h"
 #include "app/command_line/manual.h"
 #include "app/support/print.h"
 #include "io/base/atomic_file.h"

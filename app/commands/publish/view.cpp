@@ -6,7 +6,6 @@
 #include "app/mission/finished_run.h"
 #include "app/support/print.h"
 #include "app/view/dataset_page.h"
-#include "app/view/viewer_code.h"
 #include "io/base/atomic_file.h"
 
 namespace rubble {

@@ -52,12 +52,10 @@ PileState InspectedPile::all_pieces() const {
     for (const Placement& placement : pile_.layers[k].pieces) {
       PieceState piece;
       piece.layer = std::int32_t(k), piece.world_from_body = placement.world_from_body;
-      const std::size_t kind = std::size_t(placement.type);
-      const bool single = kind < pile_.types.size();
-      piece.type = placement.type, piece.scale = placement.scale;
-      if (single) all.pieces.push_back(piece);
-      if (single) continue;
-      for (const AssemblyLink& link : pile_.assemblies[kind - pile_.types.size()].links) {
+      piece.type = placement.kind.index, piece.scale = placement.scale;
+      if (!placement.kind.is_assembly) all.pieces.push_back(piece);
+      if (!placement.kind.is_assembly) continue;
+      for (const AssemblyLink& link : pile_.assemblies[std::size_t(placement.kind.index)].links) {
         piece.type = link.type, piece.scale = placement.scale * link.scale;
         all.pieces.push_back(piece);
       }

@@ -7,14 +7,14 @@
 #include <utility>
 
 #include "app/control/robot_control.h"
+#include "app/drive/drive_window.h"
 #include "app/drive/inspect/snapshot.h"
-#include "app/drive/words.h"
 #include "app/pipeline/stages.h"
 #include "app/scene/moving_scene.h"
 #include "app/sensors/build_camera.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
-#include "app/surroundings/lay_surroundings.h"
+#include "app/surroundings/pile_surroundings.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/system/disk_cache.h"
 #include "kernel/base/system/file_sandbox.h"

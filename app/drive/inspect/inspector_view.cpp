@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <array>
 
+#include "app/drive/drive_window.h"
 #include "app/drive/inspect/inspector.h"
-#include "app/drive/words.h"
 #include "app/pipeline/stages.h"
 #include "app/planning/flight.h"
 #include "app/sensors/build_camera.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "app/drive/whole_paths.h"
 #include "app/mission/scenario_lua.h"
 #include "io/base/atomic_file.h"
 #include "io/state/checkpoint_file.h"

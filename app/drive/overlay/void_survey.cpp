@@ -5,7 +5,7 @@
 #include <exception>
 #include <utility>
 
-#include "app/measures/void_metrics.h"
+#include "app/measures/metrics.h"
 
 namespace rubble {
 namespace {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/base/atomic_file.h"
-#include "io/base/csv_text.h"
+#include "io/base/escaped_text.h"
 #include "io/base/number_text.h"
 #include "kernel/base/error.h"
 

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "io/base/atomic_file.h"
-#include "io/base/csv_text.h"
+#include "io/base/escaped_text.h"
 #include "io/base/little_endian.h"
 #include "io/base/number_text.h"
 

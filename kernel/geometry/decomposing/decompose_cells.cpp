@@ -1,4 +1,4 @@
-#include "kernel/geometry/decomposing/decompose_cells.h"
+#include "kernel/geometry/decomposing/decompose_steps.h"
 
 #include <algorithm>
 #include <array>

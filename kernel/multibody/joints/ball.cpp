@@ -7,7 +7,6 @@
 #include "kernel/multibody/joints/joint.h"
 #include "kernel/multibody/joints/mobilizer.h"
 #include "kernel/multibody/joints/single.h"
-#include "kernel/multibody/joints/turn.h"
 
 namespace rubble {
 namespace {

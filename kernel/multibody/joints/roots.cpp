@@ -1,7 +1,7 @@
 // What a tree stands on: the world, freely or not at all.
 #include "kernel/multibody/joints/joint.h"
 #include "kernel/multibody/joints/mobilizer.h"
-#include "kernel/multibody/joints/turn.h"
+#include "kernel/multibody/joints/single.h"
 
 namespace rubble {
 namespace {

@@ -143,6 +143,29 @@ RUBBLE_INLINE void prepare_friction(const Side<P>& a, const Side<P>& b, const Pa
   }
 }
 
+// How a contact that has carried nothing yet will be loaded: the impulses that stop two pieces which approach each other
+// without turning. Returns their sum.
+template <typename P>
+RUBBLE_INLINE P find_first_loads(const ContactBatch& batch, int first, const P& inverse_mass, const NormalRow* rows,
+                                 P* loads) {
+  P sum{};
+  Packet3<P> turn_a{}, turn_b{};
+  for (int i = 0; i < batch.rows; ++i) loads[i] = P{};
+  for (int sweep = 0; sweep < contact_law::kLoadSweeps; ++sweep) {
+    for (int k = 0; k < batch.rows; ++k) {
+      const int i = sweep % 2 == 0 ? k : batch.rows - 1 - k;
+      const ContactRow& row = rows[i].row;
+      const P speed = inverse_mass * sum + dot(Packet3<P>(row.arm_a, first), turn_a) +
+                      dot(Packet3<P>(row.arm_b, first), turn_b) - P(1);
+      const P next = max(P{}, loads[i] - P(row.mass, first) * speed), change = next - loads[i];
+      loads[i] = next, sum = sum + change;
+      turn_a += Packet3<P>(row.turn_a, first) * change;
+      turn_b += Packet3<P>(row.turn_b, first) * change;
+    }
+  }
+  return sum;
+}
+
 template <typename P>
 RUBBLE_INLINE void prepare_packet(ContactBatch& batch, int first, const Contact* contacts,
                                   const BodyTerms* terms, float rest_gap, NormalRow* rows,
@@ -152,13 +175,16 @@ RUBBLE_INLINE void prepare_packet(ContactBatch& batch, int first, const Contact*
                         offsetof(Contact, friction_impulse) + sizeof(Vec3f),
                 "each vector and its number in a row");
   const Contact* contact[P::width()];
-  Lanes in_use, most;
+  // A line that rolls is taken as its two ends: beside gyroscopic torques, an even line lets a fast drum wobble.
+  const float spread = contact_law::mean_radius_share(batch.rows);
+  Lanes in_use, most, shares_of_radius;
   for (int i = 0; i < P::width(); ++i) {
     // Lanes not in use compute with the first contact, and their rows weigh nothing.
     const std::int32_t index = batch.contact[first + i];
     contact[i] = &contacts[index >= 0 ? index : batch.contact[0]];
     in_use[i] = index >= 0 ? 1.0F : 0.0F;
     most[i] = contact[i]->most;
+    shares_of_radius[i] = contact[i]->rolls_a || contact[i]->rolls_b ? 1.0F : spread;
   }
   const P one(1), zero{};
   const auto used = P(in_use, 0) > zero;
@@ -170,7 +196,7 @@ RUBBLE_INLINE void prepare_packet(ContactBatch& batch, int first, const Contact*
   const auto push = contact_law::find_push_shares(normal.z);
   const P share_a = select(a.mass > zero, push.a, zero), mass_a = push.a * a.mass;
   const P share_b = select(b.mass > zero, push.b, zero), mass_b = push.b * b.mass;
-  P total{};
+  P total{}, loads[Contact::kMaxPoints];
   for (int i = 0; i < batch.rows; ++i) {
     const Points<P> p(contact, i);
     const Turns<P> turns(a, b, normal, p.from_a, p.from_b);
@@ -182,14 +208,22 @@ RUBBLE_INLINE void prepare_packet(ContactBatch& batch, int first, const Contact*
     (p.separation - P(rest_gap)).store(n.gap, first);
     const P impulse = select(used, p.impulse, zero);
     impulse.store(n.impulse, first);
+    loads[i] = impulse;
     total = total + impulse;
+  }
+  const auto is_new = zero >= select(used, total, one);
+  if (any(is_new)) {
+    P first_loads[Contact::kMaxPoints];
+    const P sum = find_first_loads(batch, first, a.inverse_mass + b.inverse_mass, rows, first_loads);
+    for (int i = 0; i < batch.rows; ++i) loads[i] = select(is_new, first_loads[i], loads[i]);
+    total = select(is_new, sum, total);
   }
   const P count(float(batch.rows));
   const auto shares = contact_law::find_centre_shares(total, count);
   Packet3<P> middle_a{}, middle_b{};
   for (int i = 0; i < batch.rows; ++i) {
     const Points<P> p(contact, i);
-    const P share = shares.each + shares.per_impulse * p.impulse;
+    const P share = shares.each + shares.per_impulse * loads[i];
     middle_a += p.from_a * share;
     middle_b += p.from_b * share;
   }
@@ -197,7 +231,7 @@ RUBBLE_INLINE void prepare_packet(ContactBatch& batch, int first, const Contact*
   for (int i = 0; i < batch.rows; ++i) {
     const Points<P> p(contact, i);
     const Packet3<P> from = p.from_a - middle_a;
-    radius = radius + sqrt(dot(from, from)) * (shares.each + shares.per_impulse * p.impulse);
+    radius = radius + sqrt(dot(from, from)) * (shares.each + shares.per_impulse * loads[i]);
   }
   prepare_friction(a, b, middle_a, middle_b, friction_impulse, normal, used, first, batch);
   const Packet3<P> twist_a = a.turn(normal), twist_b = b.turn(normal);
@@ -206,7 +240,9 @@ RUBBLE_INLINE void prepare_packet(ContactBatch& batch, int first, const Contact*
   select(used, twist_mass, zero).store(batch.twist_mass, first);
   select(used, along.w, zero).store(batch.twist_impulse, first);
   select(used, across.w, zero).store(batch.friction, first);
-  max(radius, P(contact_law::kPatchRadius)).store(batch.radius, first);
+  radius = max(radius * P(shares_of_radius, 0), P(contact_law::kPatchRadius));
+  radius.store(batch.radius, first);
+  (one / radius).store(batch.per_radius, first);
   normal.store(batch.normal, first);
   twist_a.store(batch.twist_a, first);
   twist_b.store(batch.twist_b, first);
@@ -216,6 +252,7 @@ RUBBLE_INLINE void prepare_packet(ContactBatch& batch, int first, const Contact*
   share_b.store(batch.push_share_b, first);
   mass_a.store(batch.push_mass_a, first);
   mass_b.store(batch.push_mass_b, first);
+  zero.store(batch.owed, first);
   zero.store(batch.pressed, first);
   zero.store(batch.highest, first);
   P(most, 0).store(batch.most, first);

@@ -71,29 +71,44 @@ struct Impulses {
   }
 };
 
+// Slip of the patch about the normal.
 template <typename P>
-RUBBLE_INLINE void solve_friction(const ContactBatch& batch, const P& limit, Impulses<P>& at,
-                                  Sides<P>& sides) {
+RUBBLE_INLINE P spin(const ContactBatch& batch, const Sides<P>& sides) {
+  return dot(Packet3<P>(batch.normal, sides.first), sides.b.angular - sides.a.angular);
+}
+
+// Returns 0 for what sticks.
+template <typename P>
+RUBBLE_INLINE P solve_friction(const ContactBatch& batch, const P& limit, Impulses<P>& at, Sides<P>& sides) {
   const int first = sides.first;
-  P wanted[2];
+  const P one(1), twist_mass(batch.twist_mass, first), radius(batch.radius, first), inverse(batch.per_radius, first);
+  P masses[3], wanted[3];
   for (int t = 0; t < 2; ++t) {
     const FrictionRow& f = batch.slide[t];
-    wanted[t] =
-        at.slide[t] - P(f.row.mass, first) * sides.speed(f.row, Packet3<P>(f.direction, first));
+    masses[t] = P(f.row.mass, first);
+    wanted[t] = at.slide[t] - masses[t] * sides.speed(f.row, Packet3<P>(f.direction, first));
   }
-  const P shrink =
-      contact_law::shrink_into_cone(limit, wanted[0] * wanted[0] + wanted[1] * wanted[1]);
+  masses[2] = twist_mass * inverse * inverse;
+  wanted[2] = (at.twist - twist_mass * spin(batch, sides)) * inverse;
+  const contact_law::Slip<P> slip = contact_law::find_slip(limit, masses, wanted);
+  P turning = one;
+  if (any(slip.slide > P{})) {  // else all would be divided by 1
+    for (int t = 0; t < 2; ++t) wanted[t] = wanted[t] / (one + slip.slide * masses[t]);
+    turning = one / (one + slip.twist * masses[2]);
+  }
+  const P slide2 = wanted[0] * wanted[0] + wanted[1] * wanted[1], shrink = contact_law::shrink_into_cone(limit, slide2);
   for (int t = 0; t < 2; ++t) {
     const FrictionRow& f = batch.slide[t];
     const P next = wanted[t] * shrink;
     sides.apply(f.row, Packet3<P>(f.direction, first), next - at.slide[t]);
     at.slide[t] = next;
   }
-  const P speed = dot(Packet3<P>(batch.normal, first), sides.b.angular - sides.a.angular);
-  const P next = contact_law::clamp_twist(limit, P(batch.radius, first),
-                                          at.twist - P(batch.twist_mass, first) * speed);
+  // The torque sees what the force has changed.
+  const P turned = (at.twist - twist_mass * spin(batch, sides)) * turning;
+  const P next = radius * contact_law::clamp_twist(limit, slide2 * (shrink * shrink), turned * inverse);
   sides.twist(batch, next - at.twist);
   at.twist = next;
+  return slip.slide;
 }
 
 // closing: the speed at which each point may close its gap; backwards: from the last point to the first.
@@ -146,12 +161,12 @@ RUBBLE_INLINE void clamp_accumulated_impulses(ContactBatch& batch, NormalRow* ro
   }
   pressed.store(batch.pressed, first);
   highest.store(batch.highest, first);
-  const P limit = P(batch.friction, first) * sum;
+  const P torque = at.twist * P(batch.per_radius, first);
   const P shrink = contact_law::shrink_into_cone(
-      limit, at.slide[0] * at.slide[0] + at.slide[1] * at.slide[1]);
+      P(batch.friction, first) * sum,
+      at.slide[0] * at.slide[0] + at.slide[1] * at.slide[1] + torque * torque);
   for (int t = 0; t < 2; ++t) (at.slide[t] * shrink).store(batch.slide[t].impulse, first);
-  contact_law::clamp_twist(limit, P(batch.radius, first), at.twist)
-      .store(batch.twist_impulse, first);
+  (at.twist * shrink).store(batch.twist_impulse, first);
 }
 
 // The speed at which each point may close its gap: one that is still apart may do so within the substep.
@@ -174,22 +189,25 @@ RUBBLE_INLINE void solve_packet(ContactBatch& batch, NormalRow* rows, int first,
   find_closing_speeds(batch, rows, first, per_substep, moved, closing);
   Sides<P> sides(batch, first, v);
   Impulses<P> at(batch, rows, first);
-  const P friction(batch.friction, first), before = at.sum(batch.rows);
+  const P friction(batch.friction, first), owed(batch.owed, first), before = at.sum(batch.rows);
   // Friction first, against the normal impulses so far; the normals have the last word.
-  solve_friction(batch, friction * before, at, sides);
+  P limit = max(P{}, friction * before + owed), slip = solve_friction(batch, limit, at, sides);
   solve_normals(batch, rows, closing, backwards, at, sides);
-  const P pressed = at.sum(batch.rows);
+  P pressed = at.sum(batch.rows);
   const auto impact = pressed > before + before * P(kImpactRise);
   if (any(impact)) {
     // Only for the lanes that need it: who shares a batch must not change the result.
     const Impulses<P> once = at;
     const Motions<P> once_a = sides.a, once_b = sides.b;
-    solve_friction(batch, friction * pressed, at, sides);
+    limit = select(impact, max(P{}, friction * pressed + owed), limit);
+    slip = select(impact, solve_friction(batch, limit, at, sides), slip);
     solve_normals(batch, rows, closing, backwards, at, sides);
     keep_inside(impact, once, batch.rows, at);
     keep_inside(impact, once_a, sides.a);
     keep_inside(impact, once_b, sides.b);
+    pressed = at.sum(batch.rows);
   }
+  select(slip > P{}, owed + friction * pressed - limit, P{}).store(batch.owed, first);
   sides.store(batch, v);
   clamp_accumulated_impulses(batch, rows, first, weight, at);
 }

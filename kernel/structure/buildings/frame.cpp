@@ -16,18 +16,9 @@ class FrameMaker {
 
   std::vector<Member> make() {
     for (int k = 0; k < b_.storeys; ++k) {
-      for (int j = 0; j <= b_.bays_y; ++j) {
-        for (int i = 0; i <= b_.bays_x; ++i) add_column(k, i, j);
-      }
-      for (int j = 0; j <= b_.bays_y; ++j) {
-        for (int i = 0; i < b_.bays_x; ++i) add_beam(k, i, j, true);
-      }
-      for (int j = 0; j < b_.bays_y; ++j) {
-        for (int i = 0; i <= b_.bays_x; ++i) add_beam(k, i, j, false);
-      }
-      for (int j = 0; j < b_.bays_y; ++j) {
-        for (int i = 0; i < b_.bays_x; ++i) add_slab(k, i, j);
-      }
+      visit_grid(b_, [&](int i, int j) { add_column(k, i, j); },
+                 [&](int i, int j, bool along_x) { add_beam(k, i, j, along_x); },
+                 [&](int i, int j) { add_slab(k, i, j); });
       if (b_.infill != Infill::none) add_walls(k);
     }
     if (!b_.plain()) add_parts();

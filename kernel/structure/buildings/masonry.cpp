@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/structure/buildings/floors.h"
 #include "kernel/structure/buildings/parts.h"
 
 namespace rubble {
@@ -17,18 +16,9 @@ class MasonryMaker {
 
   std::vector<Member> make() {
     for (int k = 0; k < b_.storeys; ++k) {
-      for (int j = 0; j <= b_.bays_y; ++j) {
-        for (int i = 0; i <= b_.bays_x; ++i) add_corner(k, i, j);
-      }
-      for (int j = 0; j <= b_.bays_y; ++j) {
-        for (int i = 0; i < b_.bays_x; ++i) add_wall(k, i, j, true);
-      }
-      for (int j = 0; j < b_.bays_y; ++j) {
-        for (int i = 0; i <= b_.bays_x; ++i) add_wall(k, i, j, false);
-      }
-      for (int j = 0; j < b_.bays_y; ++j) {
-        for (int i = 0; i < b_.bays_x; ++i) add_floor(k, i, j);
-      }
+      visit_grid(b_, [&](int i, int j) { add_corner(k, i, j); },
+                 [&](int i, int j, bool along_x) { add_wall(k, i, j, along_x); },
+                 [&](int i, int j) { add_floor(k, i, j); });
     }
     add_parapet(b_, b_.wall, parts_);
     RandomStream random(b_.seed, "building parts");

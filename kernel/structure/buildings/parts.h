@@ -78,4 +78,30 @@ double calc_flight(const BuildingSpec& building);
 inline double x_of(const BuildingSpec& b, double i) { return (i - b.bays_x / 2.0) * b.span_x; }
 inline double y_of(const BuildingSpec& b, double j) { return (j - b.bays_y / 2.0) * b.span_y; }
 
+// Calls for each place of a storey's grid: corner(i, j), side(i, j, along_x) and bay(i, j), in this order.
+template <typename Corner, typename Side, typename Bay>
+void visit_grid(const BuildingSpec& b, const Corner& corner, const Side& side, const Bay& bay) {
+  const auto visit = [](int columns, int rows, const auto& place) {
+    for (int j = 0; j < rows; ++j)
+      for (int i = 0; i < columns; ++i) place(i, j);
+  };
+  visit(b.bays_x + 1, b.bays_y + 1, corner);
+  visit(b.bays_x, b.bays_y + 1, [&](int i, int j) { side(i, j, true); });
+  visit(b.bays_x + 1, b.bays_y, [&](int i, int j) { side(i, j, false); });
+  visit(b.bays_x, b.bays_y, bay);
+}
+
+// Floors and lintels that several kinds of building have.
+
+inline constexpr double kLintel = 0.2;       // depth of a lintel of reinforced concrete; unit: m
+inline constexpr double kBoards = 0.04;      // thickness of the boards of timber floors; unit: m
+inline constexpr double kLintelBears = 0.2;  // on either side of its opening; unit: m
+
+BuildingPart make_lintel(const std::string& name, int storey, const Aabb& box);
+
+// Joists across the shorter side of a room, which enter the walls by `bearing`, and boards on them whose upper
+// side is the room's top.
+void add_timber_floor(const BuildingSpec& building, const Aabb& room, double bearing, const std::string& name,
+                      int storey, const std::string& plan_part, std::vector<BuildingPart>& parts);
+
 }  // namespace rubble

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "kernel/base/error.h"
-#include "kernel/structure/buildings/floors.h"
 #include "kernel/structure/buildings/parts.h"
 
 namespace rubble {

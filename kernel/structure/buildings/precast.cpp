@@ -24,18 +24,9 @@ class PrecastMaker {
 
   std::vector<Member> make() {
     for (int k = 0; k < b_.storeys; ++k) {
-      for (int j = 0; j <= b_.bays_y; ++j) {
-        for (int i = 0; i <= b_.bays_x; ++i) add_column(k, i, j);
-      }
-      for (int j = 0; j <= b_.bays_y; ++j) {
-        for (int i = 0; i < b_.bays_x; ++i) add_beam(k, i, j, true);
-      }
-      for (int j = 0; j < b_.bays_y; ++j) {
-        for (int i = 0; i <= b_.bays_x; ++i) add_beam(k, i, j, false);
-      }
-      for (int j = 0; j < b_.bays_y; ++j) {
-        for (int i = 0; i < b_.bays_x; ++i) add_units(k, i, j);
-      }
+      visit_grid(b_, [&](int i, int j) { add_column(k, i, j); },
+                 [&](int i, int j, bool along_x) { add_beam(k, i, j, along_x); },
+                 [&](int i, int j) { add_units(k, i, j); });
     }
     add_edge();
     RandomStream random(b_.seed, "building parts");

@@ -1,4 +1,4 @@
-#include "kernel/structure/buildings/site.h"
+#include "kernel/structure/building.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "kernel/world/phases/advance.h"
 
-#include "kernel/multibody/free_rotation.h"
+#include "kernel/multibody/free_bodies.h"
 #include "kernel/solver/speed_limits.h"
 
 namespace rubble {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <tuple>
 
-#include "kernel/multibody/free_rotation.h"
+#include "kernel/multibody/free_bodies.h"
 
 namespace rubble {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kernel/solver/speed_limits.h"
 
@@ -49,6 +50,7 @@ void SpeedLimiter::clamp_ejections(const StepPairs& step, StepMotions& motions) 
   });
   if (!any) return;
   fastest_.assign(data_.bodies.size(), 0);
+  strikers_.assign(data_.bodies.size(), {});
   std::vector<std::uint8_t> on_ground(data_.bodies.size(), 0);
   neighbour_.assign(data_.bodies.size(), kNobody);
   const auto note = [this](std::int32_t body, std::int32_t other) {
@@ -64,11 +66,14 @@ void SpeedLimiter::clamp_ejections(const StepPairs& step, StepMotions& motions) 
       return;
     }
     const Body &a = data_.bodies[contact.body_a], &b = data_.bodies[contact.body_b];
-    float &of_a = fastest_[contact.body_a], &of_b = fastest_[contact.body_b];
+    const auto note_speed = [this](std::int32_t body, const Vec3f& velocity) {
+      const float speed = norm(velocity);
+      if (speed > fastest_[body]) fastest_[body] = speed, strikers_[body] = velocity;
+    };
     for (int i = 0; i < contact.count; ++i) {
       const ContactPoint& p = contact.points[i];
-      of_a = std::max(of_a, norm(b.linear + cross(b.angular, p.from_b)));
-      of_b = std::max(of_b, norm(a.linear + cross(a.angular, p.from_a)));
+      note_speed(contact.body_a, b.linear + cross(b.angular, p.from_b));
+      note_speed(contact.body_b, a.linear + cross(a.angular, p.from_a));
     }
   });
   for (std::int32_t i : step.awake) {
@@ -78,17 +83,25 @@ void SpeedLimiter::clamp_ejections(const StepPairs& step, StepMotions& motions) 
     if (on_ground[i] != 0 && down > most_down) {
       motions.velocities[i].linear.z *= most_down / down, motions.displacements[i].linear.z *= most_down / down;
     }
-    const float after = norm(outwards(motions.velocities[i].linear));
     const float before = speed_before(data_.bodies[i]);
     const float squeezed = std::max(before, kKickShare * fastest_[i]) + kFreeKick;
     const float struck = fastest_[i] + kFreeKick;  // one neighbour_ alone cannot squeeze
-    const float most = std::max(before, neighbour_[i] == kSeveral ? std::min(squeezed, struck) : struck);
+    const bool several = neighbour_[i] == kSeveral;
+    const float most = std::max(before, several ? std::min(squeezed, struck) : struck);
+    // What is pushed ahead by the fastest of several is not squeezed out: only the rest of its speed is.
+    Vec3f& velocity = motions.velocities[i].linear;
+    const Vec3f striker = several ? strikers_[i] * (1 / std::max(fastest_[i], 1e-6F)) : Vec3f{};
+    const Vec3f ahead = striker * std::clamp(dot(velocity, striker), 0.0F, struck);
+    const float after = norm(outwards(velocity - ahead));
     if (after <= most) continue;
     const float keep = most / after;
-    return_momentum(i, outwards(motions.velocities[i].linear) * (1 - keep), motions);
-    for (Vec3f* v : {&motions.velocities[i].linear, &motions.displacements[i].linear}) {
-      v->x *= keep, v->y *= keep;
-      if (v->z > 0) v->z *= keep;
+    return_momentum(i, outwards(velocity - ahead) * (1 - keep), motions);
+    const float seconds = float(settings_.options.step);
+    for (const auto& [v, kept] : {std::pair{&velocity, ahead}, {&motions.displacements[i].linear, ahead * seconds}}) {
+      Vec3f rest = *v - kept;
+      rest.x *= keep, rest.y *= keep;
+      if (rest.z > 0) rest.z *= keep;
+      *v = rest + kept;
     }
   }
 }

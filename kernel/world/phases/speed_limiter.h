@@ -12,7 +12,8 @@ class SpeedLimiter {
   SpeedLimiter(const WorldData& data, const WorldSettings& settings) : data_(data), settings_(settings) {}
 
   // A piece squeezed out from under a heavy one must not shoot away: sideways and upwards it may become hardly
-  // faster in one step than the points which touch it were before. Nor must what lies on the ground be shot
+  // faster in one step than the points which touch it were before. What is pushed ahead may: along the velocity of the
+  // fastest of these points it may become as fast. Nor must what lies on the ground be shot
   // through it: it moves down no faster than its own points or what strikes it did.
   void clamp_ejections(const StepPairs& step, StepMotions& motions);
   // What rolls is pushed where it is, however fast it turns: fills StepMotions::rolls.
@@ -31,6 +32,7 @@ class SpeedLimiter {
   const WorldData& data_;
   const WorldSettings& settings_;
   std::vector<float> fastest_;           // by body: of the points that touch it; unit: m/s
+  std::vector<Vec3f> strikers_;          // by body: velocity of that point; unit: m/s
   std::vector<std::int32_t> neighbour_;  // by body: the only one that touches it
 };
 

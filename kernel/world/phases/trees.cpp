@@ -31,7 +31,7 @@ void add_loop(const JointType& joint, double scale, const Pose& assembly_from_jo
 }  // namespace
 
 void WorldTrees::add_assembly(const NewPiece& piece) {
-  start(make(types_.assemblies[std::size_t(piece.placement.type - types_.placeable)], piece), piece, {});
+  start(make(types_.assemblies[std::size_t(piece.placement.kind.index)], piece), piece, {});
 }
 
 Tree WorldTrees::make(const AssemblyType& assembly, const NewPiece& piece) {
@@ -43,7 +43,7 @@ Tree WorldTrees::make(const AssemblyType& assembly, const NewPiece& piece) {
     const AssemblyLink& design = assembly.links[i];
     const Pose assembly_from_link = scaled(design.assembly_from_link, scale);
     NewPiece part = piece;
-    part.placement.type = design.type;
+    part.placement.kind = design.type;
     part.placement.scale = scale * design.scale;
     part.placement.world_from_body = piece.placement.world_from_body * assembly_from_link;
     part.placement.fixed = piece.placement.fixed && i == 0;

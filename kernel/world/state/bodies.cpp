@@ -49,10 +49,10 @@ void Bodies::weigh(Body& body, const RigidGroup& group) {
 void Bodies::add(const NewPiece& piece, FreeBody* free) {
   const Placement& at = piece.placement;
   Body body;
-  body.type = at.type;
+  body.type = at.kind.index;
   body.layer = piece.layer;
   body.scale = at.scale;
-  body.shape = &types_.shapes[at.type];
+  body.shape = &types_.shapes[std::size_t(at.kind.index)];
   body.com_in_type = body.shape->volume.centre_of_mass * at.scale;
   body.radius = body.shape->radius * float(at.scale);
   body.world_from_com = {normalized(at.world_from_body.rotation), at.world_from_body * body.com_in_type};

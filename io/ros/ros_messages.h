@@ -28,7 +28,7 @@ struct MessageType {
 };
 extern const MessageType kImage, kCompressedImage, kCameraInfo, kPoseStamped, kTfMessage, kClock,
     kImu, kEventArray, kString, kPointCloud, kLaserScan, kJointState, kOdometry, kWrenchStamped, kRange, kBool,
-    kFluidPressure, kMagneticField, kNavSatFix;
+    kFluidPressure, kMagneticField, kNavSatFix, kLivoxScan;
 
 std::string type_name(const MessageType& type, Version version);
 
@@ -94,6 +94,11 @@ std::string event_array(Version version, const Header& header, const Intrinsics&
 
 // Unordered, dense: x, y, z, intensity (float32), ring (uint16), time (float32, s since the stamp).
 std::string point_cloud(Version version, const Header& header, const std::vector<ScanPoint>& points);
+// As Ouster's driver writes them, and LIO-SAM and FAST-LIO read: x, y, z, intensity (float32), t (uint32, ns since the stamp),
+// reflectivity (uint16), ring (uint8), ambient (uint16: 0), range (uint32, mm).
+std::string ouster_cloud(Version version, const Header& header, const std::vector<ScanPoint>& points);
+// livox_ros_driver2/CustomMsg.
+std::string livox_scan(Version version, const Header& header, const std::vector<ScanPoint>& points);
 // Of a planar pattern: a range for every column, inf where there is no echo (REP 117); of two echoes of a
 // ray the first of the scan.
 std::string laser_scan(Version version, const Header& header, const RangeScan& scan);

@@ -113,6 +113,13 @@ const MessageType kPointCloud{"sensor_msgs", "PointCloud2", "1158d486dd51d683ce2
 const MessageType kLaserScan{"sensor_msgs", "LaserScan", "90c7ef2dc6895d81024acba2ac42f369",
                              "Header header\n" SCAN HEADER1, "std_msgs/Header header\n" SCAN HEADER2};
 
+#define LIVOX "uint64 timebase\nuint32 point_num\nuint8 lidar_id\nuint8[3] rsvd\nCustomPoint[] points\n"
+#define LIVOX_POINT                        \
+  SECTION("livox_ros_driver2/CustomPoint") \
+  "uint32 offset_time\nfloat32 x\nfloat32 y\nfloat32 z\nuint8 reflectivity\nuint8 tag\nuint8 line\n"
+const MessageType kLivoxScan{"livox_ros_driver2", "CustomMsg", "e4d6829bdfe657cb6c21a746c86b21a6",
+                             "std_msgs/Header header\n" LIVOX HEADER1 LIVOX_POINT, "std_msgs/Header header\n" LIVOX HEADER2 LIVOX_POINT};
+
 #define RANGE                                                                      \
   "uint8 ULTRASOUND=0\nuint8 INFRARED=1\nuint8 radiation_type\nfloat32 field_of_view\n" \
   "float32 min_range\nfloat32 max_range\nfloat32 range\n"

@@ -38,6 +38,10 @@ void ServedWorld::make_session() {
     });
   }
   session->start();
+  session->step();  // which finds what stands in a piece
+  session->start();
+  for (const auto& teleop : teleops)
+    if (teleop) teleop->restart();
   session_ = std::move(session);
   teleops_ = std::move(teleops);
   list_entities();
@@ -96,6 +100,8 @@ std::optional<ServedWorld::State> ServedWorld::state_of(const Entity& entity) co
   const Vec3 arm = piece.world_from_body.rotation.rotate(world.centre_of_mass(int(entity.number)));
   return State{piece.world_from_body, piece.linear_velocity - cross(piece.angular_velocity, arm), piece.angular_velocity};
 }
+
+bool ServedWorld::movable(const Entity& entity) const { return session_->world().mass(piece_of(entity)) > 0; }
 
 void ServedWorld::set_state(const Entity& entity, const State& state, bool pose, bool twist) {
   const int piece = piece_of(entity);

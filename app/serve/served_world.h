@@ -46,6 +46,8 @@ class ServedWorld {
     Vec3 linear, angular;
   };
   std::optional<State> state_of(const Entity& entity) const;
+  bool movable(const Entity& entity) const;
+  // No effect on what is not movable.
   void set_state(const Entity& entity, const State& state, bool pose, bool twist);
 
   // Before the first step alone. Throw InputError, and change nothing: no room at that place, a sensor that rode on it.
@@ -57,7 +59,7 @@ class ServedWorld {
     std::string name;
     Pose pose;
   };
-  // With the robots of the mission as it now is.
+  // With the robots of the mission as it now is. Throws InputError, and changes nothing.
   void make_session();
   void list_entities();
   int piece_of(const Entity& entity) const;

@@ -23,9 +23,9 @@ constexpr std::chrono::milliseconds kNap{2};  // between looks at requests while
 
 enum : std::uint8_t { kRobot = 1, kHuman = 2, kDynamic = 4, kStatic = 5 };  // EntityCategory
 
-std::uint8_t category_of(const Entity& entity, bool fixed) {
+std::uint8_t category_of(const ServedWorld& world, const Entity& entity) {
   if (entity.robot) return kRobot;
-  return entity.human ? kHuman : fixed ? kStatic : kDynamic;
+  return entity.human ? kHuman : world.movable(entity) ? kDynamic : kStatic;
 }
 
 std::vector<std::string> tags_of(const Entity& entity) { return {entity.robot ? "robot" : "piece", entity.asset}; }
@@ -43,6 +43,15 @@ bool within(const Bounds& bounds, const Vec3& p) {
   return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y && p.z <= high.z;
 }
 
+// What follows the result of a service that did nothing.
+using Rest = void (*)(ros::Wire&);
+constexpr Rest kNothing = [](ros::Wire&) {};
+constexpr Rest kNoList = [](ros::Wire& reply) { reply.count(0); };
+constexpr Rest kNoLists = [](ros::Wire& reply) { reply.count(0), reply.count(0); };
+constexpr Rest kNoName = [](ros::Wire& reply) { reply.text(""); };
+constexpr Rest kNoState = [](ros::Wire& reply) { put(reply, EntityState()); };
+constexpr Rest kNoInfo = [](ros::Wire& reply) { reply.number(std::uint8_t{0}), reply.text(""), reply.count(0); };
+
 bool is_name(const std::string& name) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   return !name.empty() && letter(name[0]) &&
@@ -53,19 +62,19 @@ bool is_name(const std::string& name) {
 
 const std::vector<SimulationServer::Service>& SimulationServer::services() {
   static const std::vector<Service> all{
-      {"get_simulator_features", "GetSimulatorFeatures", &SimulationServer::get_features},
-      {"get_simulation_state", "GetSimulationState", &SimulationServer::get_state},
-      {"set_simulation_state", "SetSimulationState", &SimulationServer::set_state},
-      {"reset_simulation", "ResetSimulation", &SimulationServer::reset},
-      {"step_simulation", "StepSimulation", &SimulationServer::step_simulation},
-      {"get_entities", "GetEntities", &SimulationServer::get_entities},
-      {"get_entities_states", "GetEntitiesStates", &SimulationServer::get_entities_states},
-      {"get_entity_state", "GetEntityState", &SimulationServer::get_entity_state},
-      {"set_entity_state", "SetEntityState", &SimulationServer::set_entity_state},
-      {"get_entity_info", "GetEntityInfo", &SimulationServer::get_entity_info},
-      {"get_spawnables", "GetSpawnables", &SimulationServer::get_spawnables},
-      {"spawn_entity", "SpawnEntity", &SimulationServer::spawn},
-      {"delete_entity", "DeleteEntity", &SimulationServer::remove},
+      {"get_simulator_features", "GetSimulatorFeatures", &SimulationServer::get_features, kNothing},
+      {"get_simulation_state", "GetSimulationState", &SimulationServer::get_state, kNothing},
+      {"set_simulation_state", "SetSimulationState", &SimulationServer::set_state, kNothing},
+      {"reset_simulation", "ResetSimulation", &SimulationServer::reset, kNothing},
+      {"step_simulation", "StepSimulation", &SimulationServer::step_simulation, kNothing},
+      {"get_entities", "GetEntities", &SimulationServer::get_entities, kNoList},
+      {"get_entities_states", "GetEntitiesStates", &SimulationServer::get_entities_states, kNoLists},
+      {"get_entity_state", "GetEntityState", &SimulationServer::get_entity_state, kNoState},
+      {"set_entity_state", "SetEntityState", &SimulationServer::set_entity_state, kNothing},
+      {"get_entity_info", "GetEntityInfo", &SimulationServer::get_entity_info, kNoInfo},
+      {"get_spawnables", "GetSpawnables", &SimulationServer::get_spawnables, kNoList},
+      {"spawn_entity", "SpawnEntity", &SimulationServer::spawn, kNoName},
+      {"delete_entity", "DeleteEntity", &SimulationServer::remove, kNothing},
   };
   return all;
 }
@@ -88,6 +97,7 @@ void SimulationServer::begin() {
   recorder_ = make_ros_recorder("the live stream", keep_stream(server_, topics_),
                                 ros_options(world_.mission().scenario.outputs, recording));
   twists_until_.clear();
+  stepping_ = false;
   for (std::size_t i = 0; i < session.records().size(); ++i) {
     if (!world_.teleop(i)) continue;
     const std::string& prefix = session.records()[i].topic;
@@ -152,23 +162,33 @@ void SimulationServer::hear() {
 }
 
 void SimulationServer::answer_all() {
-  for (std::size_t i = 0; i < numbers_.size(); ++i) {
-    const Service& service = services()[i];
-    for (const std::string& bytes : server_.take_requests(numbers_[i])) {
-      try {
-        Request request(service.type, bytes);
-        ros::Wire reply = request.reply();
-        (this->*service.answer)(request.body(), reply);
-        server_.reply(numbers_[i], reply.take());
-      } catch (const RunError& error) {
-        complaints_.note(service.name, error.what());
-      }
+  for (std::size_t i = 0; i < numbers_.size(); ++i)
+    for (const std::string& bytes : server_.take_requests(numbers_[i])) answer(i, bytes);
+}
+
+// One that does not even say who asks is left without an answer.
+void SimulationServer::answer(std::size_t number, const std::string& bytes) {
+  const Service& service = services()[number];
+  try {
+    Request request(service.type, bytes);
+    ros::Wire reply = request.reply();
+    try {
+      (this->*service.answer)(request.body(), reply);
+    } catch (const RunError& error) {
+      complaints_.note(service.name, error.what());
+      reply = request.reply();
+      put(reply, Result{kFailed, error.what()});
+      service.rest(reply);
     }
+    server_.reply(numbers_[number], reply.take());
+  } catch (const RunError& error) {
+    complaints_.note(service.name, error.what());
   }
 }
 
+// Of simulation_interfaces/SimulatorFeatures. 21 to 23, to reset time, state or what was spawned each alone, are not there.
 void SimulationServer::get_features(WireCursor&, ros::Wire& reply) {
-  const std::uint16_t features[] = {0, 1, 4, 6, 8, 10, 11, 12, 14, 20, 21, 22, 23, 24, 25, 26, 31, 32};
+  const std::uint16_t features[] = {0, 1, 4, 6, 8, 10, 11, 12, 14, 20, 24, 25, 26, 31, 32};
   reply.count(std::size(features));
   for (const std::uint16_t feature : features) reply.number(feature);
   put(reply, std::vector<std::string>{"urdf"});
@@ -186,13 +206,19 @@ Result SimulationServer::change_state(State target) {
   if (target == State::paused && state_ == State::stopped) return {103, "it is stopped: play first"};
   if (target == State::stopped) world_.restart(false), begin();
   state_ = target;
+  stepping_ = false;
   return {};
 }
 
-void SimulationServer::set_state(WireCursor& body, ros::Wire& reply) { put(reply, change_state(State(body.number<std::uint8_t>()))); }
+void SimulationServer::set_state(WireCursor& body, ros::Wire& reply) {
+  const auto target = State(body.number<std::uint8_t>());
+  body.end();
+  put(reply, change_state(target));
+}
 
 void SimulationServer::reset(WireCursor& body, ros::Wire& reply) {
   const int scope = body.number<std::uint8_t>();
+  body.end();
   if (scope != 0 && scope != 3 && scope != 7 && scope != 255)
     return put(reply, Result{kUnsupported, "time and state are reset together: scope 0, 3 (keeps what was spawned), 7 or 255"});
   world_.restart(scope != 3);
@@ -202,11 +228,19 @@ void SimulationServer::reset(WireCursor& body, ros::Wire& reply) {
 
 void SimulationServer::step_simulation(WireCursor& body, ros::Wire& reply) {
   const auto steps = body.number<std::uint64_t>();
-  if (state_ != State::paused) return put(reply, Result{kFailed, "it is not paused"});
+  body.end();
+  if (state_ != State::paused) return put(reply, Result{kIncorrectState, "it is not paused"});
+  if (stepping_) return put(reply, Result{kIncorrectState, "steps are being made"});
+  stepping_ = true;
   for (std::uint64_t i = 0; i < steps; ++i) {
-    if (stop_requested()) return put(reply, Result{kFailed, "stopped after " + std::to_string(i) + " steps"});
+    answer_all();  // who pauses, plays or resets ends it
+    if (!stepping_ || stop_requested()) {
+      stepping_ = false;
+      return put(reply, Result{kFailed, "ended after " + std::to_string(i) + " steps"});
+    }
     step();
   }
+  stepping_ = false;
   put(reply, Result());
 }
 
@@ -220,10 +254,9 @@ Result SimulationServer::select(const Filters& filters, std::vector<const Entity
   } catch (const std::regex_error& error) {
     return {kFailed, "filter: no POSIX extended regular expression: " + filters.pattern};
   }
-  const bool fixed = world_.mission().scenario.robot_run.debris == DebrisMotion::fixed;
   for (const Entity& entity : world_.entities()) {
     const auto& categories = filters.categories;
-    if (!categories.empty() && std::find(categories.begin(), categories.end(), category_of(entity, fixed)) == categories.end())
+    if (!categories.empty() && std::find(categories.begin(), categories.end(), category_of(world_, entity)) == categories.end())
       continue;
     if (!filters.tags.empty() && !has_tags(entity, filters)) continue;
     if (!filters.pattern.empty() && !std::regex_search(entity.name, pattern)) continue;
@@ -262,6 +295,7 @@ void SimulationServer::get_entities_states(WireCursor& body, ros::Wire& reply) {
 
 void SimulationServer::get_entity_state(WireCursor& body, ros::Wire& reply) {
   const std::string name = body.text();
+  body.end();
   const Entity* const entity = world_.find(name);
   const bool there = entity && world_.state_of(*entity);
   put(reply, there ? Result() : Result{kNotFound, entity ? name + " has left the world" : "no entity `" + name + "`"});
@@ -272,6 +306,7 @@ void SimulationServer::set_entity_state(WireCursor& body, ros::Wire& reply) {
   const SetStateRequest asked = read_set_state(body);
   const Entity* const entity = world_.find(asked.entity);
   if (!entity || !world_.state_of(*entity)) return put(reply, Result{kNotFound, "no entity `" + asked.entity + "`"});
+  if (!world_.movable(*entity)) return put(reply, Result{kFailed, "`" + asked.entity + "` is fixed"});
   if (asked.acceleration) return put(reply, Result{kUnsupported, "accelerations follow from forces"});
   if (!asked.state.frame.empty() && asked.state.frame != ros::kWorld)
     return put(reply, Result{kNotFound, "frame `" + asked.state.frame + "`: only `world`"});
@@ -282,15 +317,18 @@ void SimulationServer::set_entity_state(WireCursor& body, ros::Wire& reply) {
 
 void SimulationServer::get_entity_info(WireCursor& body, ros::Wire& reply) {
   const std::string name = body.text();
+  body.end();
   const Entity* const entity = world_.find(name);
   put(reply, entity ? Result() : Result{kNotFound, "no entity `" + name + "`"});
-  reply.number(entity ? category_of(*entity, world_.mission().scenario.robot_run.debris == DebrisMotion::fixed) : std::uint8_t{0});
+  reply.number(entity ? category_of(world_, *entity) : std::uint8_t{0});
   reply.text(entity ? entity->asset : "");
   put(reply, entity ? tags_of(*entity) : std::vector<std::string>());
 }
 
 void SimulationServer::get_spawnables(WireCursor& body, ros::Wire& reply) {
   const std::size_t sources = body.count(4);
+  for (std::size_t i = 0; i < sources; ++i) body.text();
+  body.end();
   put(reply, sources == 0 ? Result() : Result{kUnsupported, "sources: none"});
   const std::size_t kinds = sources == 0 ? robot_kinds().size() : 0;
   reply.count(kinds);
@@ -349,6 +387,7 @@ void SimulationServer::spawn(WireCursor& body, ros::Wire& reply) {
 
 void SimulationServer::remove(WireCursor& body, ros::Wire& reply) {
   const std::string name = body.text();
+  body.end();
   const Entity* const entity = world_.find(name);
   if (!entity) return put(reply, Result{kNotFound, "no entity `" + name + "`"});
   if (!entity->robot) return put(reply, Result{kFailed, "pieces stay"});

@@ -30,15 +30,17 @@ class SimulationServer {
   using Result = simulation_services::Result;
   using Request = simulation_services::Request;
   using State = simulation_services::State;
-  // Reads the request, and writes what follows its numbers.
+  // Reads the request, and writes what follows its numbers. Throws RunError before anything is done: it is no such request.
   using Answer = void (SimulationServer::*)(WireCursor& body, ros::Wire& reply);
   struct Service {
     const char *name, *type;
     Answer answer;
+    void (*rest)(ros::Wire& reply);  // writes what follows the result where nothing was done
   };
   static const std::vector<Service>& services();
 
   void answer_all();
+  void answer(std::size_t service, const std::string& bytes);
   void hear();
   void step();
   // After a restart: what is published goes on from there.
@@ -67,6 +69,7 @@ class SimulationServer {
   LiveServer& server_;
   Complaints complaints_;
   State state_;
+  bool stepping_ = false;  // for a client; others may end it
   std::vector<std::uint32_t> numbers_;            // of the services
   std::map<std::string, std::uint32_t> topics_;   // that go out
   std::map<std::string, std::uint32_t> heard_;    // that come in

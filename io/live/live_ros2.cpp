@@ -1,6 +1,8 @@
 #include <dds/dds.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -22,6 +24,8 @@ constexpr dds_duration_t kPatience = DDS_MSECS(100);
 constexpr char kMostHeld[] = "1 GiB";
 constexpr std::int32_t kHeard = 100;  // commands; older ones go when steps are slower
 constexpr dds_duration_t kLinger = DDS_SECS(2);  // for what readers have not confirmed at the end
+constexpr dds_duration_t kIntroduction = DDS_SECS(2);  // that a request waits until the reader of its reply is known
+constexpr std::size_t kMostClients = 100;              // of a service, among which that reader is looked for
 
 // Cyclone binds its sockets to all addresses, but announces and sends on this interface alone. Linux
 // calls the loopback interface unfit for multicast, and many participants believe it: those are looked
@@ -241,13 +245,46 @@ class Ros2Server : public Ros2Stream<LiveServer> {
                          make_writer("rr" + service + "Reply", dds_type(type, "_Response"), qos)});
     return std::uint32_t(services_.size() - 1);
   }
-  std::vector<std::string> take_requests(std::uint32_t service) override { return take_bytes(services_[service].requests, kHeard); }
+  // Each waits until its client hears replies.
+  std::vector<std::string> take_requests(std::uint32_t service) override {
+    Service& of = services_[service];
+    for (DdsSample& sample : take_samples(of.requests, kHeard)) of.waiting.push_back({std::move(sample), dds_time() + kIntroduction});
+    std::vector<std::string> ready;
+    std::vector<Request> waiting;
+    for (Request& request : of.waiting) {
+      if (dds_time() >= request.latest || hears_replies(of, request.sample.writer)) ready.push_back(std::move(request.sample.bytes));
+      else waiting.push_back(std::move(request));
+    }
+    of.waiting = std::move(waiting);
+    return ready;
+  }
   void reply(std::uint32_t service, std::string_view bytes) override { send(services_[service].replies, bytes); }
 
  private:
+  struct Request {
+    DdsSample sample;
+    dds_time_t latest;  // then it is answered, whether its client hears it or not
+  };
   struct Service {
     dds_entity_t requests = 0, replies = 0;
+    std::vector<Request> waiting{};
   };
+  using Endpoint = std::unique_ptr<dds_builtintopic_endpoint_t, void (*)(dds_builtintopic_endpoint_t*)>;
+
+  // Whether the client that wrote a request has a reader of replies that is known here: its writer may be known earlier, and
+  // what is sent before is lost. Also if the client has gone.
+  static bool hears_replies(const Service& service, dds_instance_handle_t writer) {
+    const Endpoint asks(dds_get_matched_publication_data(service.requests, writer), dds_builtintopic_free_endpoint);
+    if (!asks) return true;
+    dds_instance_handle_t readers[kMostClients];
+    const dds_return_t count = dds_get_matched_subscriptions(service.replies, readers, kMostClients);
+    for (dds_return_t i = 0; i < std::min(count, dds_return_t(kMostClients)); ++i) {
+      const Endpoint reads(dds_get_matched_subscription_data(service.replies, readers[i]), dds_builtintopic_free_endpoint);
+      if (reads && std::memcmp(&reads->participant_key, &asks->participant_key, sizeof reads->participant_key) == 0) return true;
+    }
+    return count > dds_return_t(kMostClients);
+  }
+
   std::vector<dds_entity_t> heard_;
   std::vector<Service> services_;
 };

@@ -36,6 +36,7 @@ Filters read_filters(WireCursor& body) {
   filters.all_tags = body.number<std::uint8_t>() != 0;
   filters.bounds.type = body.number<std::uint8_t>();
   for (std::size_t i = body.count(24); i > 0; --i) filters.bounds.points.push_back(body.vector());
+  body.end();
   return filters;
 }
 
@@ -51,6 +52,7 @@ SetStateRequest read_set_state(WireCursor& body) {
   request.pose = body.number<std::uint8_t>() != 0;
   request.twist = body.number<std::uint8_t>() != 0;
   request.acceleration = body.number<std::uint8_t>() != 0;
+  body.end();
   return request;
 }
 
@@ -63,6 +65,7 @@ SpawnRequest read_spawn(WireCursor& body) {
   request.entity_namespace = body.text();
   request.frame = body.header().frame;
   request.pose = read_pose(body, request.valid_pose);
+  body.end();
   return request;
 }
 

@@ -151,7 +151,8 @@ std::string make_idl() {
   Types types;
   for (const MessageType* type :
        {&kImage, &kCompressedImage, &kCameraInfo, &kPoseStamped, &kTfMessage, &kClock, &kImu, &kEventArray, &kString, &kPointCloud,
-        &kLaserScan, &kJointState, &kOdometry, &kWrenchStamped, &kRange, &kBool, &kFluidPressure, &kMagneticField, &kNavSatFix, &kLivoxScan})
+        &kLaserScan, &kJointState, &kOdometry, &kWrenchStamped, &kRange, &kBool, &kFluidPressure, &kMagneticField, &kNavSatFix, &kLivoxScan,
+        &kBatteryState})
     add_definition(type_name(*type, Version::ros2), type->definition2, types);
   for (const Definition& other : kOthers) add_definition(other.name, other.fields, types);
   std::string idl = "// Messages of Rubble over DDS, as ROS 2 names them. Made by `rubble info --idl`.\n";

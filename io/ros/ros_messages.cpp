@@ -381,6 +381,28 @@ std::string nav_sat_fix(Version version, const Header& header, bool fix, double 
   return out.take();
 }
 
+std::string battery_state(Version version, const Header& header, const Battery& battery) {
+  constexpr std::uint8_t kDischarging = 2, kNotCharging = 3, kGood = 1, kDead = 3, kLithiumIon = 2;
+  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+  const bool empty = battery.charge <= 0;
+  Wire out(version, 160);
+  put_header(out, header);
+  for (const double value : {battery.voltage, double(kUnknown), battery.current > 0 ? -battery.current : 0.0, battery.charge * battery.capacity,
+                             battery.capacity, battery.capacity, battery.charge})
+    out.number(static_cast<float>(value));
+  out.number(battery.current > 0 ? kDischarging : kNotCharging);
+  out.number(empty ? kDead : kGood);
+  out.number(kLithiumIon);
+  out.boolean(true);  // present
+  for (const double value : {battery.voltage / double(battery.cells), double(kUnknown)}) {
+    out.count(battery.cells);
+    for (std::size_t i = 0; i < battery.cells; ++i) out.number(static_cast<float>(value));
+  }
+  out.text("");  // location
+  out.text("");  // serial_number
+  return out.take();
+}
+
 std::string event_array(Version version, const Header& header, const Intrinsics& intrinsics,
                         const std::vector<Event>& events) {
   Wire out(version, 128 + 16 * events.size());

@@ -203,7 +203,8 @@ SENSORS = {
                            "magnetometers": {"mag": {"noise": False, "declination_deg": 7, "rpy_deg": [0, 0, 45]}},
                            "gnss": {"gps": {"noise": False, "altitude": 30}},
                            "range_finders": {"sonar": {"noise": False, "radiation": "ultrasound", "range_step": 0}}}},
-    "noisy": {"@sensors": {"range_finders": {"tof": {}}, "attitudes": {"ahrs": {}}, "gnss": {"gps": {}}, "bumpers": {"bow": {}}}},
+    "noisy": {"@sensors": {"range_finders": {"tof": {}}, "attitudes": {"ahrs": {}}, "gnss": {"gps": {}}, "bumpers": {"bow": {}},
+                           "batteries": {"pack": {}}}},
 }
 
 AIRS = {

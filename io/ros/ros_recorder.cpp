@@ -187,7 +187,7 @@ class RosRecorder : public Recorder {
 
   // The clock has every stamp that a stream has.
   void tick(std::int64_t stamp_ns) {
-    if (stamp_ns == clock_ns_) return;
+    if (stamp_ns <= clock_ns_) return;  // live, a sensor may be late
     clock_ns_ = stamp_ns;
     file_->write(clock_, stamp_ns, ros::clock(version_, stamp_ns));
   }
@@ -324,7 +324,7 @@ class RosRecorder : public Recorder {
   std::uint32_t instants_ = 0, rigs_ = 0;
   std::int64_t rig_ns_ = -1;               // of the last pose of the rig
   std::int64_t last_ns_ = -1;              // of the last instant
-  std::int64_t clock_ns_ = -1;             // of the last tick
+  std::int64_t clock_ns_ = -1;             // of the last tick, which is the latest
   std::vector<std::uint32_t> imu_counts_;   // readings of each unit
   std::vector<std::uint32_t> reading_counts_;  // of each other sensor
   // Numbers of the topics.

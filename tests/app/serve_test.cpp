@@ -262,7 +262,7 @@ TEST(Serve, DamagedRequestsAreAnsweredWithAnError) {
   for (const auto& [name, body] : requests) {
     const std::string whole = make_request(body);
     std::vector<std::string> damaged{whole + std::string(8, '\1')};
-    for (std::size_t size = head; size < whole.size(); ++size) damaged.push_back(whole.substr(0, size));
+    for (std::size_t size = head; size < whole.size(); size += 5) damaged.push_back(whole.substr(0, size));
     if (whole.size() >= head + 4) damaged.push_back(whole.substr(0, head) + "\xff\xff\xff\xff" + whole.substr(head + 4));
     if (name == "step_simulation") damaged.pop_back();  // a number of steps
     for (const std::string& bytes : damaged) {

@@ -9,6 +9,7 @@ prints messages of a topic. In programs:
     node = Node("rubble.idl")
     print(node.call("/get_simulation_state", "simulation_interfaces/srv/GetSimulationState").state.state)
 """
+import os
 import re
 import sys
 import time
@@ -117,7 +118,8 @@ class Node:
 
 def main():
     idl, topic, kind = sys.argv[1:4]
-    reader = Node(idl).subscribe(topic, kind)
+    node = Node(idl, int(os.environ.get("ROS_DOMAIN_ID", 0)))
+    reader = node.subscribe(topic, kind)
     while True:
         for message in reader.take(N=100):
             print(message, flush=True)

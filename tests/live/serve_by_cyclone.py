@@ -13,13 +13,15 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "datasets"))
 from read_datasets import SKIPPED, prepare_readers  # noqa: E402
 
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "ros2"
+
 if os.environ.get("RUBBLE_READERS") == "ready":
     from cyclonedds.builtin import BuiltinDataReader, BuiltinTopicDcpsPublication
     from cyclonedds.domain import DomainParticipant
     from cyclonedds.idl import make_idl_struct, types
     from cyclonedds.internal import InvalidSample
 
-    sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "examples" / "ros2"))
+    sys.path.insert(0, str(EXAMPLES))
     from dds import Node
 
 PROGRAM, FOLDER = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
@@ -302,6 +304,16 @@ def every_topic_is_read_and_right(node):
     need(node.call("/reset_simulation", SI + "ResetSimulation").result.result == 1, "reset")
 
 
+def the_example_prints_a_topic(node):
+    arguments = [sys.executable, EXAMPLES / "dds.py", FOLDER / "rubble.idl", "/joint_states", "sensor_msgs/msg/JointState"]
+    with subprocess.Popen(arguments, env=dict(os.environ, ROS_DOMAIN_ID=str(DOMAIN)), stdout=subprocess.PIPE, text=True) as example:
+        node.call("/set_simulation_state", SI + "SetSimulationState", state={"state": 1})
+        line = example.stdout.readline()
+        example.terminate()
+    need(line.startswith("JointState(header=") and "front_left_flipper_joint" in line, "it printed %s", line)
+    need(node.call("/set_simulation_state", SI + "SetSimulationState", state={"state": 2}).result.result == 1, "paused")
+
+
 def commands_are_obeyed(node):
     joints, odometry = node.subscribe("/joint_states", "sensor_msgs/msg/JointState"), node.subscribe("/ground_truth/odom", "nav_msgs/msg/Odometry")
     drive = node.advertise("/cmd_vel", "geometry_msgs/msg/Twist")
@@ -344,7 +356,8 @@ def check():
     (FOLDER / "rubble.idl").write_bytes(subprocess.run([PROGRAM, "info", "--idl"], check=True, stdout=subprocess.PIPE).stdout)
     node = Node(FOLDER / "rubble.idl", DOMAIN)
     with Served("serve", FOLDER / "mission.lua", "--paused", "--quiet", "--ros-domain", str(DOMAIN)) as served:
-        for part in (every_topic_is_read_and_right, services_do_as_simulation_interfaces_says, damaged_requests_are_refused, commands_are_obeyed):
+        for part in (every_topic_is_read_and_right, services_do_as_simulation_interfaces_says, damaged_requests_are_refused,
+                     the_example_prints_a_topic, commands_are_obeyed):
             part(node)
             print("right:", part.__name__, flush=True)
         need(served.process.wait(20) == 0, "exit code %d", served.process.returncode)

@@ -164,6 +164,23 @@ TEST(Serve, RobotsComeAndGoBeforeTheFirstStep) {
   EXPECT_EQ(served.step(1), kOk) << "it goes on";
 }
 
+TEST(Serve, ARobotComesFromAFile) {
+  const ScratchFolder scratch;
+  const std::string block = "<link name='base_link'><inertial><mass value='2'/><inertia ixx='0.01' iyy='0.01' izz='0.01' ixy='0' ixz='0' "
+                            "iyz='0'/></inertial><collision><geometry><box size='0.2 0.2 0.2'/></geometry></collision></link>";
+  write_file(scratch / "block.urdf", "<robot name='block'>" + block + "</robot>");
+  write_file(scratch / "broken.urdf", "<robot name='block'>" + block);
+  ServedMission served(kYard);
+  EXPECT_EQ(served.spawn("block", "file://" + (scratch / "none.urdf"), {-2, 0, 0.5}).result, 106);
+  EXPECT_EQ(served.spawn("block", "file://" + (scratch / "broken.urdf"), {-2, 0, 0.5}).result, 106);
+  EXPECT_EQ(served.spawn("block", scratch / "block.sdf", {-2, 0, 0.5}).result, 103);
+  const Answer spawned = served.spawn("block", "file://" + (scratch / "block.urdf"), {-2, 0, 0.5});
+  EXPECT_EQ(spawned.result, kOk) << spawned.message;
+  EXPECT_NEAR(served.state("block").pose.translation.z, 0.5, 1e-9);
+  EXPECT_EQ(served.step(48), kOk);
+  EXPECT_NEAR(served.state("block").pose.translation.z, 0.5 - 9.81 * 0.02, 0.01);
+}
+
 TEST(Serve, RobotsObeyTopicsUntilTheirDriverIsGone) {
   ServedMission served(kYard);
   served.network().send("/cmd_vel", twist(0.3));

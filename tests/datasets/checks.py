@@ -1,5 +1,6 @@
 """Checks of read_datasets.py, each by a reader that others wrote: checks.py DATA [CHECK...]"""
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -249,6 +250,19 @@ def lerobot_has_episodes_of_environments():
         need(not video.read()[0], "more pictures than rows")
 
 
+def lerobot_doctor_finds_no_fault():
+    """Layout, times, videos and features by a program for such datasets; it may say that episodes are short."""
+    import subprocess
+    program = Path(sys.executable).with_name("lerobot-doctor")
+    for root in sorted([*DATA.glob("*/lerobot"), *(p for p in DATA.glob("rollouts_*") if p.is_dir())]):
+        done = subprocess.run([program, "check", root, "--json"], capture_output=True, text=True, env=dict(os.environ, HF_HUB_OFFLINE="1"))
+        report = json.loads(done.stdout)
+        found = {check["name"]: check["severity"] for check in report["checks"]}
+        need("FAIL" not in found.values() and len(found) > 9, "%s: %s", root, found)
+        for name in ("Metadata & Format Compliance", "Temporal Consistency", "Video Integrity", "Feature Consistency", "Portability"):
+            need(found[name] == "PASS", "%s: %s: %s", root, name, [c for c in report["checks"] if c["name"] == name])
+
+
 def evo_agrees():
     """The numbers of `rubble eval trajectory` are evo's, of TUM and of KITTI files."""
     from evo.core import metrics
@@ -315,7 +329,8 @@ def bop_has_poses_of_objects():
 
 CHECKS = [bop_has_poses_of_objects, rosbags_reads_the_folder, robots_are_as_rep_105_says, mcap_has_one_schema_for_each_type, nerfstudio_projects_points,
           nerfstudio_has_all_cameras, pycolmap_reads_rigs, pycolmap_triangulates_with_rigs, pycocotools_finds_masks,
-          pykitti_reads_odometry, webdataset_decodes, lerobot_is_read_by_pyarrow, lerobot_has_episodes_of_environments, mcap_ros2_decodes_all_topics,
+          pykitti_reads_odometry, webdataset_decodes, lerobot_is_read_by_pyarrow, lerobot_has_episodes_of_environments,
+          lerobot_doctor_finds_no_fault, mcap_ros2_decodes_all_topics,
           rerun_converts_without_an_error, evo_agrees,
           pandas_reads_the_table_of_pieces]
 

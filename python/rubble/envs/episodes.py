@@ -1,5 +1,6 @@
 """Episodes of an environment as a LeRobot dataset, version 3.0."""
 import json
+import os
 
 import numpy as np
 
@@ -50,7 +51,9 @@ class LerobotRecorder(Env):
                     ("action", "values", _names("action", env.action_space)),
                     ("next.reward", "number", []), ("next.done", "flag", [])]
         self._rate = float(own.metadata["render_fps"])
-        self._dataset = _core._LerobotDataset(str(path), ["observation.images." + name for name in self._videos], features,
+        path = os.path.abspath(path)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        self._dataset = _core._LerobotDataset(path, ["observation.images." + name for name in self._videos], features,
                                               type(own).__name__, task or getattr(own, "task", type(own).__name__), self._rate)
         self._steps = 0
 

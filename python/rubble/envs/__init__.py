@@ -13,14 +13,13 @@ from .crawler_nav import CrawlerNav
 from .episodes import LerobotRecorder
 from .randomization import (Calibration, Choice, Light, LogUniform, Materials, Normal, Poses, Randomization, Uniform,
                             Weather)
+from .registry import register as _register
 from .snake_explore import SnakeExplore
 from .team_nav import TeamNav
 from .void_explore import VoidExplore
 
 try:
-    import rubble_gymnasium as _names  # type: ignore[import-untyped,unused-ignore]
-
-    _names.register()
+    _register()
 except ImportError:  # no gymnasium
     pass
 

@@ -46,7 +46,7 @@ def forget_other_sources(work, build, minutes):
     """Removes what was trained with other environments."""
     digest = hashlib.sha256(str(minutes).encode())
     for path in [HERE / "train_one.py", *sorted((build / "python/rubble/envs").glob("*.py"))]:
-        digest.update(path.read_bytes())
+        digest.update(path.name.encode() + path.read_bytes())
     stamp = work / "trained/sources.txt"
     if not stamp.exists() or stamp.read_text() != digest.hexdigest():
         shutil.rmtree(work / "trained", ignore_errors=True)

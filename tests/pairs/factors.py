@@ -21,7 +21,7 @@ PILES = {
         {"asset": "brick", "position": [0.8, 0.3, 0.3], "fixed": False}]}},
     "lean_to": {"@pile": "rubble.collapse.lean_to { length = 2, width = 1.4, height = 1, debris = " + FEW + " }"},
     "pancake": {"@pile": "rubble.collapse.pancake { length = 3, width = 2, storeys = 2, debris = { layers = 0 } }"},
-    "culvert": {"@pile": "rubble.collapse.culvert { rows = 1, debris = { layers = 0 } }"},
+    "culvert": {"@pile": "rubble.collapse.culvert { rows = 1, segments = 1, debris = { layers = 0 } }"},
     "curtain": {"@pile": "rubble.collapse.curtain { length = 1.4, storey_height = 1, debris = { layers = 0 } }"},
     "joined": {"@pile": "rubble.join(rubble.collapse.lean_to { length = 2, width = 1.4, height = 1, debris = " + FEW + " }, "
                         "rubble.collapse.heap { layers = 1, pieces_per_layer = 4, length = 1, width = 1, height = 1, "

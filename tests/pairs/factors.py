@@ -181,8 +181,8 @@ CHANNELS = {
 LIDARS = {
     "none": {},
     "vlp16": {"@lidars": {"top": {"model": "vlp16", "noise": False, "divergence_mrad": 0, "range_step": 0}}},
-    "os0": {"@lidars": {"top": {"model": "os0", "columns": 512}}},
-    "mid360": {"@lidars": {"top": {"model": "mid360", "noise": False}}},
+    "os0": {"@lidars": {"top": {"model": "os0", "columns": 512, "driver": "ouster"}}},
+    "mid360": {"@lidars": {"top": {"model": "mid360", "noise": False, "driver": "livox"}}},
     "utm30lx": {"@lidars": {"scan": {"model": "utm30lx", "rate_hz": 10, "noise": False, "range_step": 0, "divergence_mrad": 0}}},
     "two": {"@lidars": {"top": {"model": "vlp16", "returns": "dual"}, "scan": {"model": "utm30lx", "rate_hz": 10}}},
 }
@@ -203,7 +203,8 @@ SENSORS = {
                            "magnetometers": {"mag": {"noise": False, "declination_deg": 7, "rpy_deg": [0, 0, 45]}},
                            "gnss": {"gps": {"noise": False, "altitude": 30}},
                            "range_finders": {"sonar": {"noise": False, "radiation": "ultrasound", "range_step": 0}}}},
-    "noisy": {"@sensors": {"range_finders": {"tof": {}}, "attitudes": {"ahrs": {}}, "gnss": {"gps": {}}, "bumpers": {"bow": {}}}},
+    "noisy": {"@sensors": {"range_finders": {"tof": {}}, "attitudes": {"ahrs": {}}, "gnss": {"gps": {}}, "bumpers": {"bow": {}},
+                           "batteries": {"pack": {}}}},
 }
 
 AIRS = {

@@ -78,7 +78,7 @@ std::string completions(const fs::path& script, const std::string& words, int at
 
 TEST_F(Install, BashCompletesCommandsOptionsAndKeys) {
   const fs::path script = at("share/bash-completion/completions/rubble");
-  EXPECT_EQ(run(completions(script, "rubble se", 1)).substr(0, 7), "settle\n");
+  EXPECT_EQ(run(completions(script, "rubble set", 1)).substr(0, 7), "settle\n");
   EXPECT_EQ(run(completions(script, "rubble eval tr", 2)).substr(0, 11), "trajectory\n");
   EXPECT_EQ(run(completions(script, "rubble eval map --vox", 3)).substr(0, 8), "--voxel\n");
   EXPECT_EQ(run(completions(script, "rubble run m.lua --che", 3)).substr(0, 19), "--checkpoint-every\n");

@@ -247,7 +247,7 @@ const std::map<std::string, Prefixes> kDoors{
     {"openssl/", {"kernel/base/"}},
     {"embree", {"kernel/base/system/embree.h"}},
     {"render/gl/", {"render/gl/", "render/devices/gl/"}},
-    {"render/devices/", {"render/devices/", "app/support/drawing_device.h", "app/commands/info.cpp", "bench/"}},
+    {"render/devices/", {"render/devices/", "app/support/drawing_device.h", "bench/"}},
     {"EGL/", {"render/gl/"}},
     {"GL/", {"render/gl/"}},
     {"assimp/", {"io/mesh_formats/assimp_reader.cpp"}},

@@ -37,6 +37,8 @@ void add_checkpoint_option(CommandLine& line, RunOptions& options);
 
 // Who to publish to; `text` says what --ros1 does. one: ROS 1 or ROS 2, not both.
 void add_ros_options(CommandLine& line, LiveRequest& live, const std::string& text, bool one = false);
+// For ROS 2 alone, without --ros2: where to, and how fast.
+void add_served_options(CommandLine& line, LiveRequest& live);
 // For commands that draw frames: publish them meanwhile.
 void add_live_options(CommandLine& line, LiveRequest& live);
 

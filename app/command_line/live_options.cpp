@@ -18,6 +18,24 @@ std::string read_rate(const std::string& text, double& rate) {
   return rate = factor, "";
 }
 
+// ros2: the option that they need; null: none.
+void add_domain_options(CommandLine& line, LiveRequest& live, const Option* ros2) {
+  Option domain = line.add("--ros-domain", live.ros_domain, "The DDS domain")
+                      .shows_default_text("$ROS_DOMAIN_ID, or 0")
+                      .between(0, 232)
+                      .metavar("N");
+  Option interface = line.add("--ros-interface", live.ros_interface, "The network interface of DDS")
+                         .shows_default_text("that of $CYCLONEDDS_URI, or lo")
+                         .metavar("NAME");
+  if (ros2) domain.needs(*ros2), interface.needs(*ros2);
+}
+
+void add_rate_option(CommandLine& line, LiveRequest& live) {
+  line.add_read("--rate", [&live](const std::string& text) { return read_rate(text, live.rate); },
+                "Rate of publishing: realtime (default), fast, or a factor of real time")
+      .metavar("RATE");
+}
+
 }  // namespace
 
 void add_ros_options(CommandLine& line, LiveRequest& live, const std::string& text, bool one) {
@@ -32,22 +50,17 @@ void add_ros_options(CommandLine& line, LiveRequest& live, const std::string& te
       .needs(ros1);
   Option ros2 = line.add_flag("--ros2", live.ros2, "Publish the frames to ROS 2 over DDS during rendering");
   if (one) ros2.excludes(ros1);
-  line.add("--ros-domain", live.ros_domain, "The DDS domain")
-      .shows_default_text("$ROS_DOMAIN_ID, or 0")
-      .between(0, 232)
-      .metavar("N")
-      .needs(ros2);
-  line.add("--ros-interface", live.ros_interface, "The network interface of DDS")
-      .shows_default_text("that of $CYCLONEDDS_URI, or lo")
-      .metavar("NAME")
-      .needs(ros2);
+  add_domain_options(line, live, &ros2);
+}
+
+void add_served_options(CommandLine& line, LiveRequest& live) {
+  add_domain_options(line, live, nullptr);
+  add_rate_option(line, live);
 }
 
 void add_live_options(CommandLine& line, LiveRequest& live) {
   add_ros_options(line, live, "Publish the frames to ROS 1 during rendering");
-  line.add_read("--rate", [&live](const std::string& text) { return read_rate(text, live.rate); },
-                "Rate of publishing: realtime (default), fast, or a factor of real time")
-      .metavar("RATE");
+  add_rate_option(line, live);
   line.add("--wait-for-subscribers", live.wait,
            "Longest time that the first frame waits until every topic has a subscriber")
       .shows_default()

@@ -10,6 +10,7 @@
 #include "app/support/drawing_device.h"
 #include "app/support/print.h"
 #include "io/live/live_ros.h"
+#include "io/ros/ros_idl.h"
 #include "kernel/base/system/thread_count.h"
 
 namespace rubble {
@@ -69,6 +70,7 @@ Action declare_info(CommandLine& line) {
   line.add_flag("--gl", request->gl,
                 "List every EGL device with its driver or error, and mark the chosen one");
   add_device_option(line, request->device);
+  line.add_print("--idl", ros::make_idl, "Print the messages of ROS 2 in IDL, for programs that read DDS without ROS 2");
   line.add("path", request->paths,
            "Recordings, or folders of runs: list their contents and check their integrity")
       .metavar("PATH");

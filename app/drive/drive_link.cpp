@@ -6,32 +6,6 @@
 #include "io/live/live_ros.h"
 
 namespace rubble {
-namespace {
-
-// A recorder's view of the stream: what is known stays, and the end of one world is not the end.
-class KeptStream : public RosFile {
- public:
-  KeptStream(DriveStream& stream, std::map<std::string, std::uint32_t>& topics)
-      : stream_(stream), topics_(topics) {}
-
-  ros::Version version() const override { return stream_.version(); }
-  std::uint32_t add(const std::string& topic, const ros::MessageType& type, bool latched) override {
-    const auto known = topics_.find(topic);
-    if (known != topics_.end()) return known->second;
-    return topics_[topic] = stream_.add(topic, type, latched);
-  }
-  void write(std::uint32_t topic, std::int64_t stamp_ns, std::string_view message) override {
-    stream_.write(topic, stamp_ns, message);
-  }
-  void finish() override {}
-
- private:
-  DriveStream& stream_;
-  std::map<std::string, std::uint32_t>& topics_;
-};
-
-}  // namespace
-
 std::unique_ptr<DriveLink> DriveLink::connect(const RunOptions& options) {
   std::unique_ptr<DriveStream> stream = make_drive_stream(options);
   if (!stream) return nullptr;
@@ -45,7 +19,7 @@ void DriveLink::enter(const DriveWorld& world) {
   Recording recording = describe_recording(world.scenario, world.assets, world.pile,
                                            world.robots ? world.robots->records() : std::vector<RobotRecord>());
   if (world.robots) recording.mount = world.robots->mount();
-  recorder_ = make_ros_recorder("the live stream", std::make_unique<KeptStream>(*stream_, topics_),
+  recorder_ = make_ros_recorder("the live stream", keep_stream(*stream_, topics_),
                                 ros_options(world.scenario.outputs, recording));
   start_ns_ = world.scenario.start_ns;
   rate_hz_ = world.scenario.trajectory.rate_hz;

@@ -5,7 +5,6 @@
 namespace rubble {
 namespace {
 
-constexpr double kTwistHolds = 0.5;   // unit: s
 constexpr float kPressed = 0.5f;      // of an axis that counts as two buttons
 
 struct JoyStick {

@@ -47,7 +47,33 @@ Ros2Options ros2_options(const RunOptions& options) {
   return ros2;
 }
 
+class KeptStream : public RosFile {
+ public:
+  KeptStream(RosFile& stream, std::map<std::string, std::uint32_t>& topics) : stream_(stream), topics_(topics) {}
+
+  ros::Version version() const override { return stream_.version(); }
+  std::uint32_t add(const std::string& topic, const ros::MessageType& type, bool latched) override {
+    const auto known = topics_.find(topic);
+    if (known != topics_.end()) return known->second;
+    return topics_[topic] = stream_.add(topic, type, latched);
+  }
+  void write(std::uint32_t topic, std::int64_t stamp_ns, std::string_view message) override {
+    stream_.write(topic, stamp_ns, message);
+  }
+  void finish() override {}
+
+ private:
+  RosFile& stream_;
+  std::map<std::string, std::uint32_t>& topics_;
+};
+
 }  // namespace
+
+std::unique_ptr<RosFile> keep_stream(RosFile& stream, std::map<std::string, std::uint32_t>& topics) {
+  return std::make_unique<KeptStream>(stream, topics);
+}
+
+std::unique_ptr<LiveServer> make_live_server(const RunOptions& options) { return make_ros2_server(ros2_options(options)); }
 
 void check_live(const RunOptions& options) {
   if (options.live.ros2) check_ros2(ros2_options(options));

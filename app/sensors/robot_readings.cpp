@@ -6,6 +6,15 @@
 #include "kernel/world/world_robots.h"
 
 namespace rubble {
+namespace {
+
+// Steps that end by that time. Step i ends at (i + 1) * step; what rounding leaves of a time must not move it to another.
+std::size_t count_steps(double t, double step, std::size_t known) {
+  constexpr double kRounding = 1e-6;  // of a step
+  return std::size_t(std::clamp(std::floor(t / step + kRounding), 0.0, double(known)));
+}
+
+}  // namespace
 
 void ContactHistory::note(const World& world, int robots) {
   std::vector<std::vector<double>>& step = forces_.emplace_back(std::size_t(robots));
@@ -21,13 +30,8 @@ void ContactHistory::note(const World& world, int robots) {
 }
 
 double ContactHistory::largest_force(std::size_t robot, const std::vector<std::size_t>& links, double from, double to) const {
-  // Step i ends at (i + 1) * step_; what rounding leaves of a time must not move it to another step.
-  constexpr double kRounding = 1e-6;  // of a step
-  const auto count_until = [this](double t) {
-    return std::size_t(std::clamp(std::floor(t / step_ + kRounding), 0.0, double(forces_.size())));
-  };
   double largest = 0;
-  for (std::size_t i = count_until(from); i < count_until(to); ++i) {
+  for (std::size_t i = count_steps(from, step_, forces_.size()); i < count_steps(to, step_, forces_.size()); ++i) {
     const std::vector<double>& force = forces_[i][robot];
     if (force.empty()) continue;
     double sum = 0;
@@ -35,6 +39,49 @@ double ContactHistory::largest_force(std::size_t robot, const std::vector<std::s
     largest = std::max(largest, sum);
   }
   return largest;
+}
+
+namespace {
+
+// Of the belts, in the last step; unit: W
+double belt_power(const RobotModel& model, const RobotState& state) {
+  double power = 0;
+  for (std::size_t i = 0; i < model.links.size(); ++i) {
+    const RobotState::Link& link = state.links[i];
+    const Quat to_link = link.world_from_link.rotation.conjugate();
+    // As the surface that lies on the ground moves.
+    const Vec3 way = cross(model.links[i].belt_axis, to_link.rotate({0, 0, -1}));
+    power += std::max(-dot(to_link.rotate(link.contact_force), way) * link.belt_speed, 0.0);
+  }
+  return power;
+}
+
+}  // namespace
+
+void MotorHistory::note(const World& world, int robots) {
+  joints_.resize(std::size_t(robots)), given_.resize(std::size_t(robots));
+  for (std::size_t robot = 0; robot < std::size_t(robots); ++robot) {
+    const RobotState state = world.robots().state(int(robot));
+    double given = belt_power(world.robots().model(int(robot)), state) * step_;
+    std::vector<double>& joints = joints_[robot];
+    joints.resize(state.joints.size());
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      given += std::max(state.joints[i].work - joints[i], 0.0);
+      joints[i] = state.joints[i].work;
+    }
+    std::vector<double>& sums = given_[robot];
+    sums.push_back((sums.empty() ? 0 : sums.back()) + (state.lost ? 0 : given));
+  }
+}
+
+double MotorHistory::work(std::size_t robot, double from, double to) const {
+  if (robot >= given_.size()) return 0;
+  const std::vector<double>& sums = given_[robot];
+  const auto until = [&](double t) {
+    const std::size_t steps = count_steps(t, step_, sums.size());
+    return steps == 0 ? 0 : sums[steps - 1];
+  };
+  return until(to) - until(from);
 }
 
 namespace {

@@ -32,6 +32,24 @@ class ContactHistory {
   std::vector<std::vector<std::vector<double>>> forces_;  // by step, robot, link; empty: none on any
 };
 
+// What the motors of robots gave in every step: of joints by their work, of belts by the force along them and their speed.
+class MotorHistory {
+ public:
+  // step: of the world; unit: s
+  MotorHistory() = default;
+  explicit MotorHistory(double step) : step_(step) {}
+
+  // After each step.
+  void note(const World& world, int robots);
+  // In the steps after `from` up to `to`, counted from the start, without what was braked; unit: J, s
+  double work(std::size_t robot, double from, double to) const;
+
+ private:
+  double step_ = 1;
+  std::vector<std::vector<double>> joints_;  // by robot, joint: work up to the last step; unit: J
+  std::vector<std::vector<double>> given_;   // by robot, step: all up to its end; unit: J
+};
+
 // The way of a link that carries sensors of its own.
 struct LinkWay {
   Carrier carrier;
@@ -49,6 +67,7 @@ struct RobotReadings {
   std::shared_ptr<const MotionPath> ride;  // of the rig, on a link; none: it flies the trajectory
   std::vector<LinkWay> links;              // each carrier once
   ContactHistory contacts;                 // of their links
+  MotorHistory motors;                     // where a sensor asks for them
   std::vector<FeltLinks> felt;             // by sensor of the scenario; empty without robots
 
   // Of what rides there; `rig` where nothing carries it; null: no robot was driven.

@@ -47,6 +47,9 @@ SensorSite make_site(const SensorParts& parts, std::size_t number, const std::sh
   site.contact_force = [&robots = parts.robots, number](const std::vector<std::string>&, double from, double to) {
     return robots.contacts.largest_force(robots.felt.at(number).robot, robots.felt[number].links, from, to);
   };
+  site.motor_work = [&robots = parts.robots, number](double from, double to) {
+    return robots.motors.work(robots.felt.at(number).robot, from, to);
+  };
   const LightScenario& light = scenario.lights.front();
   site.north_deg = light.north_deg;
   site.latitude_deg = light.latitude_deg.value_or(kBostonLatitude);

@@ -11,15 +11,16 @@
 namespace rubble {
 namespace {
 
-bool feel_contacts(const std::vector<SensorItem>& sensors) {
-  return std::any_of(sensors.begin(), sensors.end(), [](const SensorItem& s) { return s.figures->feels_contacts(); });
+bool any_feels(const std::vector<SensorItem>& sensors, bool (SensorKind::*what)() const) {
+  return std::any_of(sensors.begin(), sensors.end(), [&](const SensorItem& s) { return ((*s.figures).*what)(); });
 }
 
 }  // namespace
 
 PoseHistory::PoseHistory(const Scenario& scenario, const std::vector<MissionRobot>& robots, double step,
                          std::int64_t start_ns)
-    : names_(robot_names(scenario.robots)), robots_(robots), start_ns_(start_ns), step_(step), felt_(feel_contacts(scenario.sensors)) {
+    : names_(robot_names(scenario.robots)), robots_(robots), start_ns_(start_ns), step_(step),
+      felt_(any_feels(scenario.sensors, &SensorKind::feels_contacts)), driven_(any_feels(scenario.sensors, &SensorKind::feels_motors)) {
   const auto add_link = [&](const Carrier& carrier, const std::string& key) {
     const auto same = [&](const LinkWay& link) { return link.carrier == carrier; };
     if (!carrier.on() || std::any_of(ways_.links.begin(), ways_.links.end(), same)) return;
@@ -87,6 +88,7 @@ void PoseHistory::restart(const RobotRun& run) {
   for (Mount& mount : mounts_) mount.way->clear(), mount.lost = false;
   for (Mount& mount : mounts_) mount.way->add(place(mount));
   ways_.contacts = ContactHistory(step_);
+  ways_.motors = MotorHistory(step_);
 }
 
 void PoseHistory::note_step() {
@@ -97,6 +99,7 @@ void PoseHistory::note_step() {
     if (!mount.lost || run_->steps() == 1) mount.way->add(link.world_from_body * mount.link_from_rider);
   }
   if (felt_) ways_.contacts.note(run_->world(), int(robots_.size()));
+  if (driven_) ways_.motors.note(run_->world(), int(robots_.size()));
 }
 
 std::int64_t PoseHistory::ways_known_until() const {

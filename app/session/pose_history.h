@@ -63,7 +63,8 @@ class PoseHistory {
   const std::vector<MissionRobot>& robots_;
   std::int64_t start_ns_;
   double step_;
-  bool felt_;  // whether contacts are kept, for sensors of contact
+  bool felt_;    // whether contacts are kept, for sensors of contact
+  bool driven_;  // whether the work of motors is kept, for batteries
   std::vector<Mount> mounts_;
   int rig_ = -1;  // which of them is the rig
   RobotReadings ways_;

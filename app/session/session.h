@@ -82,6 +82,9 @@ class Session {
   std::optional<Pose> world_from(const Carrier& carrier) const { return history_.world_from(carrier); }
   // From outside, on a piece or a link, before the next step: see World::apply_impulse(). No mission says this again.
   void apply_impulse(int piece, const Vec3& point, const Vec3& impulse) { run_->apply_impulse(piece, point, impulse); }
+  // Likewise: see World::set_pose() and World::set_velocity().
+  void set_pose(int piece, const Pose& world_from_body) { run_->set_pose(piece, world_from_body); }
+  void set_velocity(int piece, const Vec3& linear, const Vec3& angular) { run_->set_velocity(piece, linear, angular); }
   // Ways of what carries sensors so far, on to now: between the last two steps they may still change a little.
   const RobotReadings& ways() const { return history_.ways(); }
   // The scene with everything where it is when it is drawn. drawn: the scenario of the camera. It must not outlive this.

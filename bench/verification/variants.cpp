@@ -11,6 +11,7 @@
 #include "bench/process_times.h"
 #include "kernel/robot/drive_commands.h"
 #include "kernel/robot/robot_run.h"
+#include "kernel/settling/furnish.h"
 #include "kernel/settling/generator.h"
 #include "kernel/settling/settle.h"
 #include "kernel/world/world_rest.h"
@@ -116,6 +117,19 @@ void add_pile(const Pile& pile, const AssetLibrary& assets, const SettleOptions&
   add_forces(world, options.step, options.gravity, record);
 }
 
+// Where a crawler that drives along X has nothing under it and the first piece right before it; unit: m
+double find_start(const Pile& pile, const PileState& state) {
+  constexpr double kHalfWidth = 0.4, kHalfLength = 0.6;  // of a crawler with its flippers, and some; unit: m
+  double first = 0;
+  for (const PieceState& piece : state.pieces) {
+    const Aabb box = calc_bounds(pile.types[std::size_t(piece.type)]);
+    const double reach = piece.scale * std::max(norm(box.min), norm(box.max));
+    const Vec3 p = piece.world_from_body.translation;
+    if (piece.status != PieceStatus::lost && std::abs(p.y) < reach + kHalfWidth) first = std::min(first, p.x - reach);
+  }
+  return first - kHalfLength;
+}
+
 void add_robot(const Pile& pile, const PileState& state, const SettleOptions& settle, const Variant& variant, Record& record) {
   RobotRunOptions options;
   options.duration = kDrive;
@@ -123,7 +137,7 @@ void add_robot(const Pile& pile, const PileState& state, const SettleOptions& se
   options.gravity = settle.gravity, options.threads = settle.threads;
   RobotRun run(pile, state, options);
   const RobotModel crawler = make_crawler();
-  run.add(crawler, {{}, {-4, 0, 0.002}}, [&](const RobotSense&) { return drive_sides(crawler, kSpeed, 0); });
+  run.add(crawler, {{}, {find_start(pile, state), 0, 0.002}}, [&](const RobotSense&) { return drive_sides(crawler, kSpeed, 0); });
   const RobotRunResult result = run.run();
   const RobotSummary& robot = result.robots.front();
   record["settled"] = true;

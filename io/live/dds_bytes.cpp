@@ -167,11 +167,17 @@ dds_entity_t create_bytes_topic(dds_entity_t participant, const std::string& top
 
 std::vector<std::string> take_bytes(dds_entity_t reader, std::size_t most) {
   std::vector<std::string> all;
+  for (DdsSample& sample : take_samples(reader, most)) all.push_back(std::move(sample.bytes));
+  return all;
+}
+
+std::vector<DdsSample> take_samples(dds_entity_t reader, std::size_t most) {
+  std::vector<DdsSample> all;
   std::string bytes;
   void* sample = &bytes;
   dds_sample_info_t info;
   for (std::size_t i = 0; i < most && dds_take(reader, &sample, &info, 1, 1) > 0; ++i)
-    if (info.valid_data) all.push_back(std::move(bytes));
+    if (info.valid_data) all.push_back({std::move(bytes), info.publication_handle});
   return all;
 }
 

@@ -21,4 +21,11 @@ dds_entity_t create_bytes_topic(dds_entity_t participant, const std::string& top
 // What has come to a reader of such a topic, in order; no more than `most`, as a writer may be faster.
 std::vector<std::string> take_bytes(dds_entity_t reader, std::size_t most);
 
+struct DdsSample {
+  std::string bytes;
+  dds_instance_handle_t writer = 0;  // that sent it
+};
+// Likewise, with their writers.
+std::vector<DdsSample> take_samples(dds_entity_t reader, std::size_t most);
+
 }  // namespace rubble

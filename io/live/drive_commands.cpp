@@ -35,4 +35,16 @@ JointTrajectoryCommand read_joint_trajectory(ros::Version version, std::string_v
   return trajectory;
 }
 
+JointTrajectoryCommand read_joint_command(ros::Version version, std::string_view message) {
+  WireCursor cursor("sensor_msgs/JointState with a position for every name", version, message);
+  cursor.header();
+  JointTrajectoryCommand command;
+  for (std::size_t i = cursor.count(4); i > 0; --i) command.joints.push_back(cursor.text());
+  JointTrajectoryCommand::Point point;
+  point.positions = cursor.list<double>();
+  if (command.joints.empty() || point.positions.size() != command.joints.size()) cursor.fail();
+  command.points.push_back(std::move(point));
+  return command;
+}
+
 }  // namespace rubble

@@ -1,5 +1,5 @@
 // What programs ask of a camera or a robot that is driven, over the network: geometry_msgs/Twist,
-// sensor_msgs/Joy and trajectory_msgs/JointTrajectory, as they are on ROS's wires.
+// sensor_msgs/Joy, trajectory_msgs/JointTrajectory and sensor_msgs/JointState, as they are on ROS's wires.
 #pragma once
 
 #include <string>
@@ -15,6 +15,9 @@ struct TwistCommand {
   Vec3 linear;   // in the camera body frame (X forward, Y left, Z up); unit: m/s
   Vec3 angular;  // about its axes; unit: rad/s
 };
+
+// How long a twist holds, so that what is driven stops when its driver is gone; unit: s, of simulation time
+inline constexpr double kTwistHolds = 0.5;
 
 struct JoyCommand {
   std::vector<float> axes;  // range: -1 to 1, to the left and up positive
@@ -43,5 +46,7 @@ TwistCommand read_twist(ros::Version version, std::string_view message);
 JoyCommand read_joy(ros::Version version, std::string_view message);
 // Stamp, accelerations and efforts are left out. What joints there are is not known here.
 JointTrajectoryCommand read_joint_trajectory(ros::Version version, std::string_view message);
+// sensor_msgs/JointState as a command: positions at once. Velocities and efforts are left out; without positions RunError.
+JointTrajectoryCommand read_joint_command(ros::Version version, std::string_view message);
 
 }  // namespace rubble

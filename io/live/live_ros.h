@@ -53,11 +53,25 @@ class DriveStream : public RosFile {
 };
 std::unique_ptr<DriveStream> make_ros1_drive(const Ros1Options& options);
 
+// A stream that answers services as well, and hears topics by any name. Numbers are those that listen() and serve() gave.
+class LiveServer : public RosFile {
+ public:
+  // type: "geometry_msgs/msg/Twist". reliable: none may be lost.
+  virtual std::uint32_t listen(const std::string& topic, const std::string& type, bool reliable) = 0;
+  virtual std::vector<std::string> take(std::uint32_t topic) = 0;  // what came since the last call; never waits
+  // type: "simulation_interfaces/srv/StepSimulation".
+  virtual std::uint32_t serve(const std::string& service, const std::string& type) = 0;
+  virtual std::vector<std::string> take_requests(std::uint32_t service) = 0;
+  virtual void reply(std::uint32_t service, std::string_view bytes) = 0;
+};
+
 // The same for ROS 2. RunError: DDS cannot start, or knows no such interface. There is no master:
 // readers come and go as they like.
 std::string describe_ros2();
 void check_ros2(const Ros2Options& options);
 std::unique_ptr<RosFile> make_ros2_stream(const Ros2Options& options);
 std::unique_ptr<DriveStream> make_ros2_drive(const Ros2Options& options);
+// Services are those of rmw_cyclonedds: clients of other middleware see the topics, but get no answers.
+std::unique_ptr<LiveServer> make_ros2_server(const Ros2Options& options);
 
 }  // namespace rubble

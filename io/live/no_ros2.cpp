@@ -21,4 +21,9 @@ std::unique_ptr<DriveStream> make_ros2_drive(const Ros2Options& options) {
   return nullptr;
 }
 
+std::unique_ptr<LiveServer> make_ros2_server(const Ros2Options& options) {
+  check_ros2(options);
+  return nullptr;
+}
+
 }  // namespace rubble

@@ -95,6 +95,10 @@ class WireCursor {
     for (T& value : values) value = number<T>();
     return values;
   }
+  // After the last field: at most the bytes that fill up a word may follow.
+  void end() const {
+    if (rest_.size() > 3) fail();
+  }
   [[noreturn]] void fail() const {
     throw RunError(std::string("what came is no ") + type_ + " of finite numbers");
   }

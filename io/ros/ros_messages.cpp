@@ -1,6 +1,8 @@
 #include "io/ros/ros_messages.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -9,17 +11,29 @@
 namespace rubble::ros {
 namespace {
 
-// sensor_msgs/PointField: its type numbers, and what a point holds, one after the other.
-constexpr std::uint8_t kUint16 = 4, kFloat32 = 7;
-constexpr std::uint32_t kPointStep = 22;  // unit: byte
+// sensor_msgs/PointField: its type numbers, and what a point holds.
+constexpr std::uint8_t kUint8 = 2, kUint16 = 4, kUint32 = 6, kFloat32 = 7;
 struct PointField {
   const char* name;
   std::uint32_t offset;  // unit: byte
   std::uint8_t type;
 };
-constexpr PointField kPointFields[] = {{"x", 0, kFloat32},          {"y", 4, kFloat32},
-                                       {"z", 8, kFloat32},          {"intensity", 12, kFloat32},
-                                       {"ring", 16, kUint16},       {"time", 18, kFloat32}};
+struct PointLayout {
+  std::uint32_t step;  // of a point; unit: byte
+  std::vector<PointField> fields;
+};
+const PointLayout kVelodyneLayout{22,
+                                  {{"x", 0, kFloat32}, {"y", 4, kFloat32}, {"z", 8, kFloat32}, {"intensity", 12, kFloat32},
+                                   {"ring", 16, kUint16}, {"time", 18, kFloat32}}};
+const PointLayout kOusterLayout{48,
+                                {{"x", 0, kFloat32}, {"y", 4, kFloat32}, {"z", 8, kFloat32}, {"intensity", 16, kFloat32},
+                                 {"t", 20, kUint32}, {"reflectivity", 24, kUint16}, {"ring", 26, kUint8},
+                                 {"ambient", 28, kUint16}, {"range", 32, kUint32}}};
+
+template <typename T>
+T clamped(double value) {
+  return T(std::clamp(std::floor(value + 0.5), 0.0, double(std::numeric_limits<T>::max())));
+}
 
 void put_header(Wire& out, const Header& header) {
   if (out.version() == Version::ros1) out.number(header.sequence);
@@ -143,33 +157,76 @@ std::string imu(Version version, const Header& header, const ImuSample& sample,
   return out.take();
 }
 
-std::string point_cloud(Version version, const Header& header, const std::vector<ScanPoint>& points) {
+namespace {
+
+// put(point, to): writes a point of layout.step bytes.
+template <typename Put>
+std::string cloud(Version version, const Header& header, const std::vector<ScanPoint>& points, const PointLayout& layout, const Put& put) {
   const auto count = static_cast<std::uint32_t>(points.size());
-  std::string data(points.size() * kPointStep, '\0');
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    char* const at = data.data() + i * kPointStep;
-    const ScanPoint& p = points[i];
-    const float place[] = {p.x, p.y, p.z, p.intensity};
-    std::memcpy(at, place, sizeof place);
-    std::memcpy(at + kPointFields[4].offset, &p.ring, sizeof p.ring);
-    std::memcpy(at + kPointFields[5].offset, &p.time, sizeof p.time);
-  }
-  Wire out(version, data.size() + 256);
+  std::string data(points.size() * layout.step, '\0');
+  for (std::size_t i = 0; i < points.size(); ++i) put(points[i], data.data() + i * layout.step);
+  Wire out(version, data.size() + 512);
   put_header(out, header);
   out.number(std::uint32_t{1});
   out.number(count);
-  out.count(std::size(kPointFields));
-  for (const PointField& field : kPointFields) {
+  out.count(layout.fields.size());
+  for (const PointField& field : layout.fields) {
     out.text(field.name);
     out.number(field.offset);
     out.number(field.type);
     out.number(std::uint32_t{1});
   }
   out.boolean(false);  // is_bigendian
-  out.number(kPointStep);
-  out.number(count * kPointStep);
+  out.number(layout.step);
+  out.number(count * layout.step);
   out.blob(data);
   out.boolean(true);  // is_dense
+  return out.take();
+}
+
+template <typename T>
+void put_value(char* to, std::uint32_t offset, const T& value) {
+  std::memcpy(to + offset, &value, sizeof value);
+}
+
+}  // namespace
+
+std::string point_cloud(Version version, const Header& header, const std::vector<ScanPoint>& points) {
+  return cloud(version, header, points, kVelodyneLayout, [](const ScanPoint& p, char* to) {
+    const float place[] = {p.x, p.y, p.z, p.intensity};
+    put_value(to, 0, place);
+    put_value(to, 16, p.ring);
+    put_value(to, 18, p.time);
+  });
+}
+
+std::string ouster_cloud(Version version, const Header& header, const std::vector<ScanPoint>& points) {
+  return cloud(version, header, points, kOusterLayout, [](const ScanPoint& p, char* to) {
+    const float place[] = {p.x, p.y, p.z};
+    const double range = std::sqrt(double(p.x) * p.x + double(p.y) * p.y + double(p.z) * p.z);
+    put_value(to, 0, place);
+    put_value(to, 16, p.intensity);
+    put_value(to, 20, clamped<std::uint32_t>(double(p.time) * 1e9));
+    put_value(to, 24, clamped<std::uint16_t>(double(p.intensity)));
+    put_value(to, 26, clamped<std::uint8_t>(p.ring));
+    put_value(to, 32, clamped<std::uint32_t>(range * 1000));
+  });
+}
+
+std::string livox_scan(Version version, const Header& header, const std::vector<ScanPoint>& points) {
+  Wire out(version, points.size() * 20 + 128);
+  put_header(out, header);
+  out.number(static_cast<std::uint64_t>(header.stamp_ns));  // of the first point
+  out.number(static_cast<std::uint32_t>(points.size()));
+  for (int i = 0; i < 4; ++i) out.number(std::uint8_t{0});  // lidar_id, rsvd
+  out.count(points.size());
+  for (const ScanPoint& p : points) {
+    out.number(clamped<std::uint32_t>(double(p.time) * 1e9));
+    out.number(p.x), out.number(p.y), out.number(p.z);
+    out.number(clamped<std::uint8_t>(double(p.intensity)));
+    out.number(std::uint8_t{0x10});  // tag: one echo, of high confidence
+    out.number(clamped<std::uint8_t>(p.ring));
+  }
   return out.take();
 }
 
@@ -321,6 +378,28 @@ std::string nav_sat_fix(Version version, const Header& header, bool fix, double 
   for (const double value : {latitude_deg, longitude_deg, altitude}) out.number(value);
   for (int i = 0; i < 9; ++i) out.number(fix && i % 4 == 0 ? variances[i / 4] : 0.0);
   out.number(fix ? kDiagonal : kUnknownCovariance);
+  return out.take();
+}
+
+std::string battery_state(Version version, const Header& header, const Battery& battery) {
+  constexpr std::uint8_t kDischarging = 2, kNotCharging = 3, kGood = 1, kDead = 3, kLithiumIon = 2;
+  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+  const bool empty = battery.charge <= 0;
+  Wire out(version, 160);
+  put_header(out, header);
+  for (const double value : {battery.voltage, double(kUnknown), battery.current > 0 ? -battery.current : 0.0, battery.charge * battery.capacity,
+                             battery.capacity, battery.capacity, battery.charge})
+    out.number(static_cast<float>(value));
+  out.number(battery.current > 0 ? kDischarging : kNotCharging);
+  out.number(empty ? kDead : kGood);
+  out.number(kLithiumIon);
+  out.boolean(true);  // present
+  for (const double value : {battery.voltage / double(battery.cells), double(kUnknown)}) {
+    out.count(battery.cells);
+    for (std::size_t i = 0; i < battery.cells; ++i) out.number(static_cast<float>(value));
+  }
+  out.text("");  // location
+  out.text("");  // serial_number
   return out.take();
 }
 

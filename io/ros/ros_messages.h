@@ -28,7 +28,7 @@ struct MessageType {
 };
 extern const MessageType kImage, kCompressedImage, kCameraInfo, kPoseStamped, kTfMessage, kClock,
     kImu, kEventArray, kString, kPointCloud, kLaserScan, kJointState, kOdometry, kWrenchStamped, kRange, kBool,
-    kFluidPressure, kMagneticField, kNavSatFix;
+    kFluidPressure, kMagneticField, kNavSatFix, kLivoxScan, kBatteryState;
 
 std::string type_name(const MessageType& type, Version version);
 
@@ -88,12 +88,24 @@ std::string magnetic_field(Version version, const Header& header, const Vec3& fi
 // Without a fix: status -1, and what is not known is NaN. variances: east, north, up; unit: m2
 std::string nav_sat_fix(Version version, const Header& header, bool fix, double latitude_deg, double longitude_deg,
                         double altitude, const Vec3& variances);
+// While it discharges its current is negative; what is not known is NaN.
+struct Battery {
+  double voltage = 0, current = 0;  // current: that it gives; unit: V, A
+  double charge = 0, capacity = 0;  // charge: share of the capacity; unit: 1, A h
+  std::size_t cells = 1;            // lithium-ion, in series
+};
+std::string battery_state(Version version, const Header& header, const Battery& battery);
 // dvs_msgs/EventArray, as drivers of event cameras publish.
 std::string event_array(Version version, const Header& header, const Intrinsics& intrinsics,
                         const std::vector<Event>& events);
 
 // Unordered, dense: x, y, z, intensity (float32), ring (uint16), time (float32, s since the stamp).
 std::string point_cloud(Version version, const Header& header, const std::vector<ScanPoint>& points);
+// As Ouster's driver writes them, and LIO-SAM and FAST-LIO read: x, y, z, intensity (float32), t (uint32, ns since the stamp),
+// reflectivity (uint16), ring (uint8), ambient (uint16: 0), range (uint32, mm).
+std::string ouster_cloud(Version version, const Header& header, const std::vector<ScanPoint>& points);
+// livox_ros_driver2/CustomMsg.
+std::string livox_scan(Version version, const Header& header, const std::vector<ScanPoint>& points);
 // Of a planar pattern: a range for every column, inf where there is no echo (REP 117); of two echoes of a
 // ray the first of the scan.
 std::string laser_scan(Version version, const Header& header, const RangeScan& scan);

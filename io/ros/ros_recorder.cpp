@@ -81,6 +81,7 @@ class RosRecorder : public Recorder {
   // After the descriptions and fixed transforms, which come with the first frame.
   void write_robot(const RobotSample& sample) override {
     tick(sample.stamp_ns);
+    begin_without_cameras(sample.stamp_ns);
     if (instants_ > 0)
       robots_->write(sample, tf_);
     else
@@ -117,6 +118,7 @@ class RosRecorder : public Recorder {
       if (cameras_.size() == 1) add_other_sensors();
       add_ground_truth(camera, topics);
     }
+    if (cameras_.empty()) add_other_sensors();
     robots_ = std::make_unique<RobotTopics>(recording_.robots, *file_);
     if (recording_.has_legend())
       legend_ = file_->add("/ground_truth/legend", ros::kString, true);
@@ -185,9 +187,18 @@ class RosRecorder : public Recorder {
 
   // The clock has every stamp that a stream has.
   void tick(std::int64_t stamp_ns) {
-    if (stamp_ns == clock_ns_) return;
+    if (stamp_ns <= clock_ns_) return;  // live, a sensor may be late
     clock_ns_ = stamp_ns;
     file_->write(clock_, stamp_ns, ros::clock(version_, stamp_ns));
+  }
+
+  // What holds all the time comes with the first frame, else with the first sample of a robot.
+  void begin_without_cameras(std::int64_t stamp_ns) {
+    if (instants_ > 0 || !recording_.cameras.empty()) return;
+    ++instants_;
+    Frame frame;
+    frame.stamp_ns = stamp_ns;
+    write_constants(frame);
   }
 
   // Once for the frames of all cameras at one instant.
@@ -313,7 +324,7 @@ class RosRecorder : public Recorder {
   std::uint32_t instants_ = 0, rigs_ = 0;
   std::int64_t rig_ns_ = -1;               // of the last pose of the rig
   std::int64_t last_ns_ = -1;              // of the last instant
-  std::int64_t clock_ns_ = -1;             // of the last tick
+  std::int64_t clock_ns_ = -1;             // of the last tick, which is the latest
   std::vector<std::uint32_t> imu_counts_;   // readings of each unit
   std::vector<std::uint32_t> reading_counts_;  // of each other sensor
   // Numbers of the topics.

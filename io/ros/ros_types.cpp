@@ -113,6 +113,13 @@ const MessageType kPointCloud{"sensor_msgs", "PointCloud2", "1158d486dd51d683ce2
 const MessageType kLaserScan{"sensor_msgs", "LaserScan", "90c7ef2dc6895d81024acba2ac42f369",
                              "Header header\n" SCAN HEADER1, "std_msgs/Header header\n" SCAN HEADER2};
 
+#define LIVOX "uint64 timebase\nuint32 point_num\nuint8 lidar_id\nuint8[3] rsvd\nCustomPoint[] points\n"
+#define LIVOX_POINT                        \
+  SECTION("livox_ros_driver2/CustomPoint") \
+  "uint32 offset_time\nfloat32 x\nfloat32 y\nfloat32 z\nuint8 reflectivity\nuint8 tag\nuint8 line\n"
+const MessageType kLivoxScan{"livox_ros_driver2", "CustomMsg", "e4d6829bdfe657cb6c21a746c86b21a6",
+                             "std_msgs/Header header\n" LIVOX HEADER1 LIVOX_POINT, "std_msgs/Header header\n" LIVOX HEADER2 LIVOX_POINT};
+
 #define RANGE                                                                      \
   "uint8 ULTRASOUND=0\nuint8 INFRARED=1\nuint8 radiation_type\nfloat32 field_of_view\n" \
   "float32 min_range\nfloat32 max_range\nfloat32 range\n"
@@ -140,6 +147,26 @@ const MessageType kMagneticField{"sensor_msgs", "MagneticField", "2f3b0b43eed0c9
   "uint16 SERVICE_GPS=1\nuint16 SERVICE_GLONASS=2\nuint16 SERVICE_COMPASS=4\nuint16 SERVICE_GALILEO=8\nuint16 service\n"
 const MessageType kNavSatFix{"sensor_msgs", "NavSatFix", "2d3a8cd499b9b4a0249fb98fd05cfa48",
                              "Header header\n" FIX HEADER1 FIX_STATUS, "std_msgs/Header header\n" FIX HEADER2 FIX_STATUS};
+
+#define BATTERY_CONSTANTS \
+  "uint8 POWER_SUPPLY_STATUS_UNKNOWN=0\nuint8 POWER_SUPPLY_STATUS_CHARGING=1\n" \
+  "uint8 POWER_SUPPLY_STATUS_DISCHARGING=2\nuint8 POWER_SUPPLY_STATUS_NOT_CHARGING=3\n" \
+  "uint8 POWER_SUPPLY_STATUS_FULL=4\nuint8 POWER_SUPPLY_HEALTH_UNKNOWN=0\nuint8 POWER_SUPPLY_HEALTH_GOOD=1\n" \
+  "uint8 POWER_SUPPLY_HEALTH_OVERHEAT=2\nuint8 POWER_SUPPLY_HEALTH_DEAD=3\n" \
+  "uint8 POWER_SUPPLY_HEALTH_OVERVOLTAGE=4\nuint8 POWER_SUPPLY_HEALTH_UNSPEC_FAILURE=5\n" \
+  "uint8 POWER_SUPPLY_HEALTH_COLD=6\nuint8 POWER_SUPPLY_HEALTH_WATCHDOG_TIMER_EXPIRE=7\n" \
+  "uint8 POWER_SUPPLY_HEALTH_SAFETY_TIMER_EXPIRE=8\nuint8 POWER_SUPPLY_TECHNOLOGY_UNKNOWN=0\n" \
+  "uint8 POWER_SUPPLY_TECHNOLOGY_NIMH=1\nuint8 POWER_SUPPLY_TECHNOLOGY_LION=2\n" \
+  "uint8 POWER_SUPPLY_TECHNOLOGY_LIPO=3\nuint8 POWER_SUPPLY_TECHNOLOGY_LIFE=4\n" \
+  "uint8 POWER_SUPPLY_TECHNOLOGY_NICD=5\nuint8 POWER_SUPPLY_TECHNOLOGY_LIMN=6\n"
+#define BATTERY \
+  "float32 voltage\nfloat32 temperature\nfloat32 current\nfloat32 charge\nfloat32 capacity\n" \
+  "float32 design_capacity\nfloat32 percentage\nuint8 power_supply_status\nuint8 power_supply_health\n" \
+  "uint8 power_supply_technology\nbool present\nfloat32[] cell_voltage\nfloat32[] cell_temperature\n" \
+  "string location\nstring serial_number\n"
+const MessageType kBatteryState{"sensor_msgs", "BatteryState", "4ddae7f048e32fda22cac764685e3974",
+                                BATTERY_CONSTANTS "Header header\n" BATTERY HEADER1,
+                                BATTERY_CONSTANTS "std_msgs/Header header\n" BATTERY HEADER2};
 
 const MessageType kEventArray{
     "dvs_msgs", "EventArray", "5e8beee5a6c107e504c2e78903c224b8",

@@ -26,8 +26,9 @@ constexpr float kNearestShiftCosine = 0.9F;
 // A point of the previous step is retained while its two ends are not farther apart than this; unit: m.
 constexpr float kRetainDistance = 0.004F;
 // Contacts of pieces that move farther than this against each other in a step are searched where they will meet: levers
-// that are taken at the step's start would change their angular momentum. unit: m
-constexpr float kLongTravel = 0.02F;
+// that are taken at the step's start would change their angular momentum. Pieces of a pile that settles move less: what
+// others push aside in the same step may meet elsewhere, or meet at all where it seemed to pass. unit: m
+constexpr float kLongTravel = 0.2F;
 // Pieces that are nearer to each other than this have met. unit: m
 constexpr float kMeetingGap = 0.002F;
 constexpr int kMostAdvances = 6;  // steps of the search for the time when two meet. unit: 1

@@ -34,7 +34,8 @@ void store_points(Contact& contact, Manifold& manifold, const Vec3f& normal, con
 
 // Finds normal and points anew, and carries over the impulses of points found again. No points:
 // the parts are farther apart than they can come in this step; then returns a distance that they
-// keep at least, else 0; unit: m. free: neither is a tree's link; then fast ones are searched where they will meet.
+// keep at least, else 0; unit: m. free: nothing touches either, and neither is a tree's link; then fast ones are searched
+// where they will meet.
 float update_contact(Contact& contact, const PosedBody& a, const PosedBody& b, float margin,
                     const NarrowSettings& settings, bool free = false);
 // Finds the points along a given normal (unit length, from A to B) of two parts that overlap along it

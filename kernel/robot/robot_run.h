@@ -81,6 +81,10 @@ class RobotRun {
   // Before the next step: see World::apply_impulse().
   void apply_impulse(int piece, const Vec3& point, const Vec3& impulse) { world_.apply_impulse(piece, point, impulse); }
 
+  // Likewise, see World::set_pose() and World::set_velocity(). The room at that place is not checked.
+  void set_pose(int piece, const Pose& world_from_body) { world_.set_pose(piece, world_from_body); }
+  void set_velocity(int piece, const Vec3& linear, const Vec3& angular) { world_.set_velocity(piece, linear, angular); }
+
   const World& world() const { return world_; }
   std::int64_t steps() const { return steps_; }  // since begin()
   // So far: final up to its last sample. Until finish().

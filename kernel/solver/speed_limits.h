@@ -3,13 +3,13 @@
 
 namespace rubble {
 
-// Ejection limit: the largest gain of speed sideways or upwards in a step of a piece that is squeezed out
-// from under a heavy one. It is also the largest difference to the speed of the fastest point that touches
-// the piece. A plastic impact that needs more takes two or three steps. Without this limit, one piece in a
-// thousand leaves the pile at more than 8 m/s. unit: m/s
+// Ejection limit. A push along a normal n by what moves at V and is much heavier turns the velocity u of a piece into
+// u + n (n . (V - u)): these are a sphere that spans from u to V, and friction brings them nearer to V. So a piece at
+// rest may be thrown ahead as fast as what strikes it, but sideways half as fast; what squeezes it out faster takes
+// further steps. A piece may have stopped first, so the sphere from rest to V counts too; it alone where several
+// touch the piece. This much more is allowed. Without this limit, one piece in a thousand leaves the pile at more than
+// 8 m/s. unit: m/s
 inline constexpr float kFreeKick = 1.0F;
-// A larger gain is allowed up to this share of the speed of the fastest point that touches the piece. unit: 1
-inline constexpr float kKickShare = 0.4F;
 // Rolling resistance begins when a verification of rest has lasted this long. It is not part of Coulomb's law:
 // without it, a bent bar on two supports swings for minutes, where a real one rests after seconds. Sliding is
 // not damped, so a piece that creeps down a slope does not count as at rest. unit: s

@@ -164,7 +164,7 @@ class Dataset:
         return stamps, np.array(rows)
 
     def readings(self, name: str) -> tuple[NDArray[np.int64], dict[str, NDArray[np.float64]]]:
-        """(stamps, dict of arrays by column) of a range finder, bumper, attitude sensor, barometer, magnetometer or GNSS
+        """(stamps, dict of arrays by column) of a range finder, bumper, attitude sensor, barometer, magnetometer, battery or GNSS
         receiver, by its name in the mission; units as sensors/NAME.csv says."""
         path = os.path.join(self.folder, "sensors", name + ".csv")
         if not os.path.exists(path):

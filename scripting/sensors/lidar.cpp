@@ -34,6 +34,8 @@ class Mistakes {
     check_count("channels", f_.channels, {32, 64, 128});
     check_count("columns", f_.columns, {512, 1024, 2048});
     if (f_.has_own_beams()) check_beams();
+    if (f_.planar() && f_.driver != LidarDriver::velodyne)
+      add("driver", "a 2-D scanner has LaserScan alone", "no such key", f_.driver == LidarDriver::ouster ? "ouster" : "livox");
     const LidarSpec spec = f_.spec();
     if (spec.min_range >= spec.max_range)
       add("max_range", "the range is empty", "more than min_range, " + format_number(spec.min_range) + " m",
@@ -109,6 +111,9 @@ class LidarKind : public SensorKind {
     add_ranges(k);
     k.choice("returns", f_.returns, {"strongest", "last", "dual"},
              "Reported echoes of a ray. `dual`: the strongest and the last; if these are the same, the two strongest.");
+    k.choice("driver", f_.driver, {"velodyne", "ouster", "livox"},
+             "Whose driver's ROS messages the scans are (docs/reference/lidar.md); not of 2-D scanners. `velodyne`: `ring`, `time`. "
+             "`ouster`: `t`, `ring`, `range` and others. `livox`: `livox_ros_driver2/CustomMsg`.");
   }
   std::vector<Diagnostic> find_mistakes() const override { return Mistakes(f_).take(); }
 
@@ -125,9 +130,14 @@ class LidarKind : public SensorKind {
   }
   std::shared_ptr<const LidarSpec> scan_spec() const override { return std::make_shared<const LidarSpec>(f_.spec()); }
   std::string sample_name() const override { return "lidar"; }
-  std::vector<Topic> topics() const override { return {{"", f_.planar() ? &ros::kLaserScan : &ros::kPointCloud}}; }
+  std::vector<Topic> topics() const override {
+    return {{"", f_.planar() ? &ros::kLaserScan : f_.driver == LidarDriver::livox ? &ros::kLivoxScan : &ros::kPointCloud}};
+  }
   std::string message(std::size_t, ros::Version version, const ros::Header& header, const Reading& reading) const override {
-    return f_.planar() ? ros::laser_scan(version, header, *reading.scan) : ros::point_cloud(version, header, reading.scan->points);
+    if (f_.planar()) return ros::laser_scan(version, header, *reading.scan);
+    const std::vector<ScanPoint>& points = reading.scan->points;
+    if (f_.driver == LidarDriver::ouster) return ros::ouster_cloud(version, header, points);
+    return f_.driver == LidarDriver::livox ? ros::livox_scan(version, header, points) : ros::point_cloud(version, header, points);
   }
   RawlogObservation observe(const Reading& reading) const override { return ScanObservation{reading.scan}; }
 

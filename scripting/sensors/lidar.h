@@ -13,6 +13,9 @@ namespace rubble {
 // Figures and sources: lidar_models.cpp.
 enum class LidarModel { vlp16, os0, os1, os2, mid360, utm30lx };
 
+// Whose driver's messages its scans are in ROS.
+enum class LidarDriver { velodyne, ouster, livox };
+
 // The names of the models in missions, in their order.
 const std::vector<std::string>& lidar_model_names();
 
@@ -31,6 +34,7 @@ struct LidarFigures {
   std::optional<double> range_step{};     // unit: m
   std::optional<double> divergence_mrad{};  // full angle; unit: mrad
   LidarReturns returns = LidarReturns::strongest;  // which echoes are reported
+  LidarDriver driver = LidarDriver::velodyne;      // not of 2-D scanners
 
   bool has_channels() const;  // whether `channels`, `columns` and keys of beams may be set
   bool has_own_beams() const { return !beam_elevations_deg.empty() || !beam_azimuths_deg.empty() || beam_radius != 0 || beam_height != 0; }

@@ -37,6 +37,9 @@ struct SensorSite {
   // The largest sum of the normal forces on these links of its robot (empty: on the link that carries it) in the steps
   // after `from` up to `to`; contacts with the robot itself do not count. unit: N
   std::function<double(const std::vector<std::string>& links, double from, double to)> contact_force;
+  // Mechanical work that the motors of its robot gave in the steps after `from` up to `to`; what they brake is not taken
+  // off. unit: J
+  std::function<double(double from, double to)> motor_work;
 
   // For one that scans: what its rays meet, and what hangs in the air; of chance that it has without noise; threads to use.
   std::shared_ptr<RayWorld> rays;
@@ -84,6 +87,7 @@ class SensorKind : public ReadingFormat {
   virtual bool on_robots_only() const { return false; }  // whether it needs a `ride`
   virtual bool casts_rays() const { return false; }      // whether it sees the scene
   virtual bool feels_contacts() const { return false; }  // whether it calls SensorSite::contact_force
+  virtual bool feels_motors() const { return false; }    // whether it calls SensorSite::motor_work
   virtual std::vector<std::string> links() const { return {}; }  // that contact_force() is asked for
 
   virtual std::unique_ptr<SensorKind> clone() const = 0;

@@ -22,6 +22,7 @@ return rubble.mission {
   attitudes = { ahrs = { ride = on_robot } },
   barometers = { baro = { ride = on_robot, altitude = 40 } },
   magnetometers = { mag = { ride = on_robot } },
+  batteries = { pack = { ride = on_robot } },
   gnss = { gps = { ride = on_robot, position = { -0.2, 0, 0.45 } } },
   imu = { on = true, ride = on_robot },
   camera = { width = 160, height = 120, fov_deg = 90 },

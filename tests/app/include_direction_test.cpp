@@ -163,7 +163,7 @@ const Allowed kScripting = stack(
 const Allowed kApp = stack(
     {"app/support/", "app/formats/", "app/provenance/", "app/assets/", "app/measures/",
      "app/estimate/", "app/planning/", "app/victims/", "app/fines/", "app/surroundings/", "app/scene/", "app/mission/", "app/sensors/", "app/robots/", "app/control/", "app/simulators/", "app/session/", "app/pipeline/", "app/batch/", "app/report/", "app/card/",
-     "app/eval/scores/", "app/eval/sfm/", "app/eval/map/", "app/search/", "app/navigate/", "app/navigate_ros1/", "app/view/", "app/drive/", "app/command_line/",
+     "app/eval/scores/", "app/eval/sfm/", "app/eval/map/", "app/search/", "app/navigate/", "app/navigate_ros1/", "app/view/", "app/drive/", "app/serve/", "app/command_line/",
      "app/commands/eval/", "app/commands/assets/", "app/commands/publish/", "app/commands/",
      "app/main.cpp"},
     {"kernel/", "render/", "io/", "scripting/", "assets/generator/"});

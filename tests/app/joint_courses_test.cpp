@@ -1,7 +1,7 @@
 // Where joints are to be by the trajectories of /joint_trajectory.
 #include <gtest/gtest.h>
 
-#include "app/drive/robots/joint_courses.h"
+#include "app/control/joint_courses.h"
 #include "kernel/base/error.h"
 #include "scripting/robots/crawler.h"
 #include "scripting/robots/vine.h"

@@ -17,6 +17,7 @@ VALUES = {
     "sensor_msgs/FluidPressure": lambda m, row: ([m.fluid_pressure], row),
     "sensor_msgs/MagneticField": lambda m, row: ([m.magnetic_field.x, m.magnetic_field.y, m.magnetic_field.z], row),
     "sensor_msgs/NavSatFix": lambda m, row: ([m.latitude, m.longitude, m.altitude], row[:3]),
+    "sensor_msgs/BatteryState": lambda m, row: ([m.voltage, -m.current, m.percentage], row),
 }
 
 
@@ -32,7 +33,7 @@ for file in sorted(os.listdir(os.path.join(folder, "sensors"))):
     name = os.path.splitext(file)[0]
     with open(os.path.join(folder, "sensors", file)) as text:
         rows = list(csv.reader(text))[1:]
-    for topic in ("/" + name, "/" + name + "/wrench"):
+    for topic in ("/battery_state" if name == "pack" else "/" + name, "/" + name + "/wrench"):
         messages = list(bag.read_messages(topics=[topic]))
         if not messages and topic.endswith("wrench"):
             continue
@@ -43,7 +44,7 @@ for file in sorted(os.listdir(os.path.join(folder, "sensors"))):
                 sys.exit("%s: MD5 %s, of the definition %s" % (topic, connection.md5sum, messages[0].message._md5sum))
         for (_, message, time), row in zip(messages, rows):
             found, wanted = VALUES[message._type](message, [float(value) for value in row[1:]])
-            if time.to_nsec() != int(row[0]) or not all(map(same, found, wanted, [message._type.endswith("Range")] * len(found))):
+            if time.to_nsec() != int(row[0]) or not all(map(same, found, wanted, [message._type.endswith(("Range", "BatteryState"))] * len(found))):
                 sys.exit("%s at %s: %s, in the table %s" % (topic, time, found, row))
             if hasattr(message, "header") and message.header.frame_id != name + "_link":
                 sys.exit("%s: frame %s" % (topic, message.header.frame_id))

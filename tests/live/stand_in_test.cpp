@@ -36,6 +36,7 @@ TEST(LiveStandIn, NamesThePackageThatRos2Needs) {
   }
   EXPECT_THROW(make_ros2_stream({}), InputError);
   EXPECT_THROW(make_ros2_drive({}), InputError);
+  EXPECT_THROW(make_ros2_server({}), InputError);
 }
 
 }  // namespace stand_in_test

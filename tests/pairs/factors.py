@@ -21,7 +21,7 @@ PILES = {
         {"asset": "brick", "position": [0.8, 0.3, 0.3], "fixed": False}]}},
     "lean_to": {"@pile": "rubble.collapse.lean_to { length = 2, width = 1.4, height = 1, debris = " + FEW + " }"},
     "pancake": {"@pile": "rubble.collapse.pancake { length = 3, width = 2, storeys = 2, debris = { layers = 0 } }"},
-    "culvert": {"@pile": "rubble.collapse.culvert { rows = 1, debris = { layers = 0 } }"},
+    "culvert": {"@pile": "rubble.collapse.culvert { rows = 1, segments = 1, debris = { layers = 0 } }"},
     "curtain": {"@pile": "rubble.collapse.curtain { length = 1.4, storey_height = 1, debris = { layers = 0 } }"},
     "joined": {"@pile": "rubble.join(rubble.collapse.lean_to { length = 2, width = 1.4, height = 1, debris = " + FEW + " }, "
                         "rubble.collapse.heap { layers = 1, pieces_per_layer = 4, length = 1, width = 1, height = 1, "
@@ -181,8 +181,8 @@ CHANNELS = {
 LIDARS = {
     "none": {},
     "vlp16": {"@lidars": {"top": {"model": "vlp16", "noise": False, "divergence_mrad": 0, "range_step": 0}}},
-    "os0": {"@lidars": {"top": {"model": "os0", "columns": 512}}},
-    "mid360": {"@lidars": {"top": {"model": "mid360", "noise": False}}},
+    "os0": {"@lidars": {"top": {"model": "os0", "columns": 512, "driver": "ouster"}}},
+    "mid360": {"@lidars": {"top": {"model": "mid360", "noise": False, "driver": "livox"}}},
     "utm30lx": {"@lidars": {"scan": {"model": "utm30lx", "rate_hz": 10, "noise": False, "range_step": 0, "divergence_mrad": 0}}},
     "two": {"@lidars": {"top": {"model": "vlp16", "returns": "dual"}, "scan": {"model": "utm30lx", "rate_hz": 10}}},
 }
@@ -203,7 +203,8 @@ SENSORS = {
                            "magnetometers": {"mag": {"noise": False, "declination_deg": 7, "rpy_deg": [0, 0, 45]}},
                            "gnss": {"gps": {"noise": False, "altitude": 30}},
                            "range_finders": {"sonar": {"noise": False, "radiation": "ultrasound", "range_step": 0}}}},
-    "noisy": {"@sensors": {"range_finders": {"tof": {}}, "attitudes": {"ahrs": {}}, "gnss": {"gps": {}}, "bumpers": {"bow": {}}}},
+    "noisy": {"@sensors": {"range_finders": {"tof": {}}, "attitudes": {"ahrs": {}}, "gnss": {"gps": {}}, "bumpers": {"bow": {}},
+                           "batteries": {"pack": {}}}},
 }
 
 AIRS = {

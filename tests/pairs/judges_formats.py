@@ -194,6 +194,10 @@ def scan_files_are_equal(data):
         messages = data.recording.messages(topics[0])
         if pcd:
             need(len(messages) == len(pcd), "%s: %d messages, %d PCD files", name, len(messages), len(pcd))
+        if pcd and "points" in messages[0]:  # Livox
+            for k, message in enumerate(messages):
+                found = np.array([[point[a] for a in "xyz"] for point in message["points"]], np.float32).reshape(-1, 3)
+                need(np.array_equal(found, points[k][:, :3].astype(np.float32)), "%s: scan %d differs between the recording and PCD", name, k)
         if pcd and "point_step" in messages[0]:
             for k, message in enumerate(messages):
                 record = np.dtype({"names": [f["name"] for f in message["fields"]],

@@ -9,7 +9,7 @@ from dataset import need
 from judges_motion import carrier_poses
 
 LATITUDE, LONGITUDE = 42.36, -71.06  # where a mission without a place is; unit: degree
-KINDS = ("range_finders", "bumpers", "attitudes", "barometers", "magnetometers", "gnss")
+KINDS = ("range_finders", "bumpers", "attitudes", "barometers", "magnetometers", "gnss", "batteries")
 
 
 def sensors(data, *kinds):
@@ -108,7 +108,8 @@ def readings_are_recorded(data):
     if data.recording is None:
         return
     for kind, name, settings in sensors(data):
-        topic, table = settings["topic"] or "/" + name, read_table(data, name)
+        topic = settings["topic"] or ("/battery_state" if kind == "batteries" else "/" + name)
+        table = read_table(data, name)
         stamps = [stamp for stamp, _ in data.recording.topics.get(topic, [])]
         need(stamps == sorted(table), "%s of %s: %d messages, %d rows, or other stamps", topic, kind, len(stamps), len(table))
         steps = np.diff(sorted(table))
@@ -122,5 +123,17 @@ def bumpers_say_what_they_feel(data):
             need(pressed == (force >= settings["threshold"]), "%s at %d ns: pressed %g by %g N", name, stamp, pressed, force)
 
 
+def batteries_lose_what_they_give(data):
+    """Without what the current is between readings: the charge falls by the current of each reading since the one before."""
+    for _, name, settings in sensors(data, "batteries"):
+        charge, last = settings["charge"], None
+        for stamp, (voltage, current, left) in sorted(read_table(data, name).items()):
+            if last is not None:
+                charge = max(charge - current * (stamp - last) * 1e-9 / (3600 * settings["capacity_ah"]), 0)
+            need(abs(left - charge) < 1e-9, "%s at %d ns: charge %.9f instead of %.9f", name, stamp, left, charge)
+            need(current > 0 and voltage <= 4.2 * settings["cells"], "%s at %d ns: %g V, %g A", name, stamp, voltage, current)
+            last = stamp
+
+
 JUDGES = [attitudes_meet_poses, pressures_meet_heights, fields_meet_poses, fixes_meet_poses, ranges_meet_geometry,
-          readings_are_recorded, bumpers_say_what_they_feel]
+          readings_are_recorded, bumpers_say_what_they_feel, batteries_lose_what_they_give]

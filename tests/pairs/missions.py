@@ -254,10 +254,10 @@ def add_sensors(mission, special, robots):
             for item in mission["imus"].values():
                 item["ride"] = ride
     for kind, by_name in special.get("@sensors", {}).items():
-        if kind == "bumpers" and not robots:
+        if kind in ("bumpers", "batteries") and not robots:
             continue  # what flies has none
         mission[kind] = {name: dict(settings) for name, settings in by_name.items()}
-        if on_links or kind == "bumpers":
+        if on_links or kind in ("bumpers", "batteries"):
             for settings in mission[kind].values():
                 settings.update(ride=ride, position=[0, 0, 0.6])
     if "@lidars" in special:

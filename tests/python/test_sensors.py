@@ -123,9 +123,9 @@ class Robots(unittest.TestCase):
             robot.step()
         self.assertEqual(raised.exception.key, "pose")
 
-RUIN = """return rubble.mission { seed = 5,
+RUIN = """return rubble.mission { seed = 4,
   pile = rubble.building { storeys = 1, bays_x = 1, bays_y = 1, span_x = 4, span_y = 4, column = 0.25, piece = 2,
-    infill = "none", continuity = 0.3, cause = { shake = 8, shake_seconds = 2, weak_storey = 0, weakness = 0.1 } },
+    infill = "none", continuity = 0.3, cause = { shake = 8, shake_seconds = 2, weak_storey = 0, weakness = 0.03 } },
   settle = { final_time_limit = 30 } }"""
 
 

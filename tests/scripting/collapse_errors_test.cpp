@@ -124,7 +124,7 @@ TEST(PlacedErrors, AssetOrBox) {
 // What the reference and the errors rest on: every mode describes itself whole.
 TEST(CollapseLibrary, EveryParameterIsDescribed) {
   const std::vector<DescribedFunction> modes = LuaSandbox::describe_library();
-  EXPECT_EQ(modes.size(), 11u + 4 + 1 + 7 + 1 + 7)
+  EXPECT_EQ(modes.size(), 11u + 4 + 2 + 7 + 1 + 7)
       << "modes, densities, terrain, paths, find_void and robots";
   for (const DescribedFunction& mode : modes) {
     OptionTable table(mode.description);

@@ -113,6 +113,38 @@ TEST(Sensors, ABumperReportsTheLargestForceSinceTheReadingBefore) {
   EXPECT_EQ(asked[2], (std::pair<double, double>{0.02, 0.04}));  // without a gap
 }
 
+TEST(Sensors, ABatteryGivesWhatMotorsAndElectronicsDraw) {
+  SensorSite site = site_at({});
+  site.motor_work = [](double from, double to) { return to > 10 ? 60 * (to - from) : 0; };  // 60 W after 10 s
+  const auto meter = make_sensor("batteries", {"cells=6", "capacity_ah=2", "resistance=0.1", "idle_power=25", "efficiency=0.5"}).start(site, 1);
+  const std::vector<double> full = meter->read(0);
+  EXPECT_EQ(full[2], 1);
+  EXPECT_NEAR(full[0] * full[1], 25, 1e-9) << "the power at its poles";
+  EXPECT_NEAR(full[0] + 0.1 * full[1], 6 * 4.2, 1e-9) << "the drop over its resistance";
+  double drawn = 0;  // unit: A s
+  for (int i = 1; i <= 100; ++i) {
+    const std::vector<double> reading = meter->read(i * 0.1);
+    drawn += reading[1] * 0.1;
+    EXPECT_NEAR(reading[2], 1 - drawn / 7200, 1e-12);
+  }
+  const std::vector<double> driven = meter->read(10.5);
+  EXPECT_NEAR(driven[0] * driven[1], 25 + 120, 1e-9);
+}
+
+TEST(Sensors, ABatteryGivesNoMoreThanItCan) {
+  SensorSite site = site_at({});
+  site.motor_work = [](double from, double to) { return 1e6 * (to - from); };
+  const auto weak = make_sensor("batteries", {"cells=1", "resistance=0.1", "charge=0.5"}).start(site, 1);
+  const std::vector<double> reading = weak->read(1);
+  EXPECT_NEAR(reading[0], 3.75 / 2, 1e-9) << "half of the voltage, at the most power";
+  EXPECT_NEAR(reading[1], 3.75 / 0.2, 1e-9);
+  const auto empty = make_sensor("batteries", {"capacity_ah=0.001"}).start(site, 1);
+  empty->read(1);
+  const std::vector<double> none = empty->read(2);
+  EXPECT_EQ(none[1], 0);
+  EXPECT_EQ(none[2], 0);
+}
+
 TEST(Sensors, AnAttitudeWithoutNoiseIsTheOrientation) {
   const Quat q = portable::quat_from_rpy(0.3, -0.2, 2.5);
   const SensorSite site = site_at({q, {}});
@@ -273,6 +305,7 @@ TEST(Sensors, EveryKindHasItsFileAndItsColumns) {
     EXPECT_FALSE(kind->topics().empty()) << kind->key();
     SensorSite site = site_at({});
     site.contact_force = [](const auto&, double, double) { return 0.0; };
+    site.motor_work = [](double, double) { return 0.0; };
     site.rays = std::make_shared<RayWorld>(Scene());
     site.air = std::make_shared<const Medium>(AirSpec(), 1);
     const auto meter = kind->start(site, std::nullopt, 10);

@@ -12,8 +12,9 @@ work=$build/wheel_work
 libraries=/usr/lib/$(gcc -print-multiarch)
 
 # Libraries of libraries from which nothing is called here: of OpenCV's readers of pictures and its calibration, which
-# MRPT links (gdal and 120 others come with them), of windows, of Unicode, of ODE. stub_library.py stands in for each.
-unused="libopencv_imgcodecs libopencv_calib3d libGLX libOpenGL libEGL libGLESv2 libGLU libGL libicuuc libode"
+# MRPT links (gdal and 120 others come with them), of windows, of Unicode, of ODE, of memory that DDS would share.
+# stub_library.py stands in for each.
+unused="libopencv_imgcodecs libopencv_calib3d libGLX libOpenGL libEGL libGLESv2 libGLU libGL libicuuc libode libiceoryx_binding_c"
 rm -rf "$work/stubs" && mkdir "$work/stubs"
 # shellcheck disable=SC2086  # a word each
 "$here/stub_library.py" "$build/rubble" "$work/stubs" $unused

@@ -50,40 +50,24 @@ RobotDrive::RobotDrive(ResolvedMission mission, const PileState& pile, const std
     ride.position = kBehind, ride.rpy_deg = kNoseDown;
   }
   session_ = std::make_unique<Session>(mission_, pile, std::move(made), context, options);
-  session_->set_controller(driven_, [this](const RobotSense& sense) { return control(sense); });
+  session_->set_controller(driven_, [this](const RobotSense& sense) {
+    return robot_->control(sense, session_->robots()[driven_].model);
+  });
   restart();
 }
 
-RobotCommand RobotDrive::control(const RobotSense& sense) {
-  std::vector<RobotLeg>& legs = kept_;
-  RobotLeg leg = legs.back();
-  leg.t = sense.time;
-  kind_of(item_).steer(asked_, item_, legs.back(), sense.time - asked_at_, leg);
-  courses_.ask(sense.time, leg);
-  asked_at_ = sense.time;
-  if (!same_command(leg, legs.back())) {
-    if (leg.t <= legs.back().t) legs.pop_back();
-    legs.push_back(leg);
-  }
-  // As the mission that is kept will say it: by the last of them.
-  return command_of_leg(item_, session_->robots()[driven_].model, legs.back(), sense.time);
-}
-
 void RobotDrive::restart() {
-  item_ = mission_.scenario.robots[driven_];
-  kept_ = {kind_of(item_).still(item_)};
-  asked_at_ = 0;
-  courses_.end();
+  robot_ = std::make_unique<TeleopRobot>(mission_.scenario.robots[driven_]);
   session_->start();
 }
 
 void RobotDrive::follow(const JointTrajectoryCommand& trajectory) {
-  courses_.begin(trajectory, session_->robots()[driven_].model, session_->world().robots().state(int(driven_)),
+  robot_->follow(trajectory, session_->robots()[driven_].model, session_->world().robots().state(int(driven_)),
                  double(session_->steps()) * session_->step_time());
 }
 
 void RobotDrive::advance(const TeleopCommand& asked, double time) {
-  asked_ = asked;
+  robot_->ask(asked);
   const auto steps = std::int64_t(time / session_->step_time() + 0.5);
   while (session_->steps() < steps) session_->step();
 }
@@ -102,9 +86,9 @@ Scenario RobotDrive::scenario(const Scenario& camera) const {
     }
   }
   const std::string urdf = kept.robots[driven_].urdf;
-  kept.robots[driven_] = item_;
+  kept.robots[driven_] = robot_->item();
   kept.robots[driven_].urdf = urdf;
-  kept.robots[driven_].drive = kept_;
+  kept.robots[driven_].drive = robot_->legs();
   kept.trajectory = {};
   kept.trajectory.rate_hz = camera.trajectory.rate_hz;
   kept.trajectory.ride = mission_.scenario.trajectory.ride;

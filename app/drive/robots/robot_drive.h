@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/drive/robots/joint_courses.h"
+#include "app/control/teleop_robot.h"
 #include "app/mission/resolved_mission.h"
 #include "app/session/session.h"
 #include "scripting/robots/robot_kind.h"
@@ -48,16 +48,10 @@ class RobotDrive {
   Track finish() { return session_->finish().moved.track; }
 
  private:
-  RobotCommand control(const RobotSense& sense);
-
   ResolvedMission mission_;
   std::vector<std::string> folders_;  // of URDF files
   std::size_t driven_ = 0;
-  RobotItem item_;               // the driven one
-  std::vector<RobotLeg> kept_;   // all of its commands so far
-  TeleopCommand asked_;
-  JointCourses courses_;
-  double asked_at_ = 0;  // of the last command; unit: s
+  std::unique_ptr<TeleopRobot> robot_;  // the driven one
   std::unique_ptr<Session> session_;
 };
 

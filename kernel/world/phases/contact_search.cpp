@@ -56,7 +56,8 @@ void ContactSearch::update_pair(const StepPairs& step, Pair& pair, Contact& cont
   const PosedBody b = bodies_.posed(data_.colliders[pair.collider_b]);
   const double travel = data_.bodies[pair.body_a].travel + data_.bodies[pair.body_b].travel;
   if (pair.live && travel < pair.searched_until) return follow_contact(contact, a, b);
-  const bool free = data_.bodies[pair.body_a].tree < 0 && data_.bodies[pair.body_b].tree < 0;
+  const auto is_free = [](const Body& body) { return body.tree < 0 && !body.touching; };
+  const bool free = is_free(data_.bodies[pair.body_a]) && is_free(data_.bodies[pair.body_b]);
   const float apart = update_contact(contact, a, b, margin, settings_.narrow, free);
   pair.apart_until = travel + double(apart + kSparedMargin);
   pair.searched_until = travel + kFollowedTravel;

@@ -16,6 +16,17 @@ constexpr std::uint8_t kTouches = 0;   // find_rolling(): nothing is known of th
 constexpr std::uint8_t kRolls = 1;     // find_rolling(): the piece rolls at its contacts
 constexpr std::uint8_t kPushed = 2;    // find_rolling(): the piece also has a contact where it does not roll
 
+// How far a velocity lies beyond those that pushes by what moves at `striker` can give a piece: see kFreeKick. Nothing
+// is beyond that leads downwards.
+Vec3f find_excess(Vec3f velocity, const Vec3f& start, const Vec3f& striker) {
+  velocity.z = std::max(velocity.z, std::min({start.z, striker.z, 0.0F}));
+  const Vec3f from_middle = velocity - (start + striker) * 0.5F;
+  const float radius = 0.5F * norm(striker - start) + kFreeKick, distance = norm(from_middle);
+  if (distance <= radius) return {};
+  const Vec3f excess = from_middle * (1 - radius / distance);
+  return {excess.x, excess.y, std::max(excess.z, 0.0F)};
+}
+
 }  // namespace
 
 // What a piece loses goes back to the only one that touches it, if that is as heavy: where two
@@ -84,25 +95,20 @@ void SpeedLimiter::clamp_ejections(const StepPairs& step, StepMotions& motions) 
       motions.velocities[i].linear.z *= most_down / down, motions.displacements[i].linear.z *= most_down / down;
     }
     const float before = speed_before(data_.bodies[i]);
-    const float squeezed = std::max(before, kKickShare * fastest_[i]) + kFreeKick;
-    const float struck = fastest_[i] + kFreeKick;  // one neighbour_ alone cannot squeeze
-    const bool several = neighbour_[i] == kSeveral;
-    const float most = std::max(before, several ? std::min(squeezed, struck) : struck);
-    // What is pushed ahead by the fastest of several is not squeezed out: only the rest of its speed is.
     Vec3f& velocity = motions.velocities[i].linear;
-    const Vec3f striker = several ? strikers_[i] * (1 / std::max(fastest_[i], 1e-6F)) : Vec3f{};
-    const Vec3f ahead = striker * std::clamp(dot(velocity, striker), 0.0F, struck);
-    const float after = norm(outwards(velocity - ahead));
-    if (after <= most) continue;
-    const float keep = most / after;
-    return_momentum(i, outwards(velocity - ahead) * (1 - keep), motions);
-    const float seconds = float(settings_.options.step);
-    for (const auto& [v, kept] : {std::pair{&velocity, ahead}, {&motions.displacements[i].linear, ahead * seconds}}) {
-      Vec3f rest = *v - kept;
-      rest.x *= keep, rest.y *= keep;
-      if (rest.z > 0) rest.z *= keep;
-      *v = rest + kept;
-    }
+    const float after = norm(outwards(velocity));
+    if (after <= before) continue;
+    Vec3f excess = outwards(velocity) * (1 - before / after);
+    const auto allow_from = [&](const Vec3f& start) {
+      const Vec3f beyond = find_excess(velocity, start, strikers_[i]);
+      if (norm(beyond) < norm(excess)) excess = beyond;
+    };
+    allow_from({});
+    if (neighbour_[i] != kSeveral) allow_from(data_.bodies[i].linear);
+    if (norm(excess) <= 0) continue;
+    return_momentum(i, excess, motions);
+    velocity -= excess;
+    motions.displacements[i].linear -= excess * float(settings_.options.step);
   }
 }
 

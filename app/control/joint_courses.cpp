@@ -1,4 +1,4 @@
-#include "app/drive/robots/joint_courses.h"
+#include "app/control/joint_courses.h"
 
 #include <algorithm>
 #include <utility>

@@ -67,4 +67,5 @@ NB_MODULE(_core, module) {
   rubble::python::add_explorer(module);
   rubble::python::add_sessions(module);
   rubble::python::add_recordings(module);
+  rubble::python::add_episodes(module);
 }

@@ -41,5 +41,6 @@ Intrinsics pinhole(int width, int height, double fov_deg, double shift_x = 0, do
 Array<double> camera_matrix(const Intrinsics& k);  // K, 3 by 3
 void add_sessions(nb::module_& module);
 void add_recordings(nb::module_& module);
+void add_episodes(nb::module_& module);
 
 }  // namespace rubble::python

@@ -141,6 +141,24 @@ observations, rewards, terminated, truncated, infos = env.step(env.action_space.
 
 Each environment gives what it gives alone. One that has ended begins its next episode at its next step, whose action has no
 effect.
+
+## Episodes as a dataset
+
+`LerobotRecorder` writes the episodes of an environment as a LeRobot dataset, version 3.0. It is complete when it is closed.
+
+```python
+from rubble.envs import CrawlerNav, LerobotRecorder
+
+with LerobotRecorder(CrawlerNav(pile_seeds=[1], rays=16), "out/episodes") as env:
+    for seed in range(2):
+        env.reset(seed=seed)
+        for _ in range(3):
+            env.step([1, 0, 0, 0])
+```
+
+A row has the observation before an action, the action, and what it gave: pictures of uint8 as videos
+(`observation.images.NAME`), all other values in `observation.state`, then `action`, `next.reward`, `next.done`. The column
+`info` of `meta/episodes` has seed, randomization, return and end of each episode, as JSON.
 """
 
 

@@ -1,11 +1,6 @@
-// A LeRobot dataset, version 3.0, of one episode.
-//
-//   meta/info.json, meta/stats.json, meta/tasks.parquet, meta/episodes/chunk-000/file-000.parquet
-//   data/chunk-000/file-000.parquet                            a row for each instant of the cameras
-//   videos/observation.images.NAME/chunk-000/file-000.mp4      colour of each camera: JPEG pictures in MP4
+// Records a run as a LeRobot dataset of one episode.
 // observation.state: of each robot the position and the speed of its moving joints, and its true base: x y z, qw qx qy qz;
 // without robots the rig: the same, and its velocity. action: the state of the next row, in the last row the own one.
-// Depth and ground truth have no place in the format.
 #pragma once
 
 #include <memory>

@@ -7,7 +7,7 @@ namespace rubble {
 namespace {
 
 // Numbers of the format: physical types, repetition, converted types, encodings.
-constexpr int kInt64 = 2, kFloat = 4, kDouble = 5, kByteArray = 6;
+constexpr int kBoolean = 0, kInt64 = 2, kFloat = 4, kDouble = 5, kByteArray = 6;
 constexpr int kRequired = 0, kRepeated = 2;
 constexpr int kUtf8 = 0, kList = 3;
 constexpr int kPlain = 0, kRle = 3;
@@ -167,6 +167,13 @@ void ParquetTable::add(const std::string& name, const std::vector<std::int64_t>&
 void ParquetTable::add(const std::string& name, const std::vector<float>& values) { add_flat(name, kFloat, values); }
 void ParquetTable::add(const std::string& name, const std::vector<double>& values) { add_flat(name, kDouble, values); }
 void ParquetTable::add(const std::string& name, const std::vector<std::string>& values) { add_flat(name, kByteArray, values); }
+// Eight to a byte, the first one lowest.
+void ParquetTable::add(const std::string& name, const std::vector<bool>& values) {
+  Column& column = columns_.emplace_back(Column{name, kBoolean, false, false, values.size(), std::int64_t(values.size())});
+  column.page.assign((values.size() + 7) / 8, '\0');
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (values[i]) column.page[i / 8] = char(column.page[i / 8] | 1 << i % 8);
+}
 void ParquetTable::add_lists(const std::string& name, const std::vector<std::vector<float>>& lists) {
   add_list_column(name, kFloat, lists);
 }

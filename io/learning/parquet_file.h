@@ -16,6 +16,7 @@ class ParquetTable {
   void add(const std::string& name, const std::vector<float>& values);
   void add(const std::string& name, const std::vector<double>& values);
   void add(const std::string& name, const std::vector<std::string>& values);
+  void add(const std::string& name, const std::vector<bool>& values);
   void add_lists(const std::string& name, const std::vector<std::vector<float>>& lists);
   void add_lists(const std::string& name, const std::vector<std::vector<std::string>>& lists);
   // Key and value of the file, such as "pandas".

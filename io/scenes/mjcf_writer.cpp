@@ -220,12 +220,20 @@ class MjcfBuilder {
     const auto next = int(hulls_.size());
     const auto [found, is_new] = hulls_.try_emplace({part.shape, int(k), part.scale}, next);
     const std::string xml_name = "hull_" + std::to_string(found->second);
-    if (is_new) {
-      std::string corners;
-      for (const Vec3& p : shape.hulls[k].points) corners += (corners.empty() ? "" : " ") + vector_text(p * part.scale);
-      assets_ += "    <mesh name=\"" + xml_name + "\"" + attribute("vertex", corners) + "/>\n";
-    }
+    if (is_new)
+      assets_ += "    <mesh name=\"" + xml_name + "\" inertia=\"convex\"" + attribute("file", xml_text(hull_file_of(part.shape, k))) +
+                 attribute("scale", number_list({part.scale, part.scale, part.scale})) + "/>\n";
     return geom + attribute("mesh", xml_name) + place(part.link_from_part) + "/>\n";
+  }
+
+  // Files, since Rapier's reader leaves out meshes whose vertices are in the XML.
+  const std::string& hull_file_of(int shape_index, std::size_t k) {
+    const auto [found, is_new] = hull_files_.try_emplace({shape_index, int(k)});
+    if (!is_new) return found->second;
+    const SimShape& shape = model_.sim.shapes[std::size_t(shape_index)];
+    found->second = names_.add(shape.name + "_part_" + std::to_string(k)) + ".obj";
+    files_.write("meshes/" + found->second, hull_obj(shape.hulls[k]));
+    return found->second;
   }
 
   std::string visual_text(const SimPart& part, const std::string& indent) {
@@ -278,7 +286,7 @@ class MjcfBuilder {
   std::vector<SceneLook> looks_;
   FileNames names_;
   std::map<Key, int> hulls_, visuals_;
-  std::map<std::pair<int, int>, std::string> surface_files_;
+  std::map<std::pair<int, int>, std::string> surface_files_, hull_files_;
   std::string assets_, excludes_, equalities_, actuators_;
 };
 

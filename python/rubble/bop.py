@@ -115,7 +115,7 @@ def clipped(triangle):
 
 def silhouette(np, camera, points, triangles):
     """Pixels whose centres the mesh covers. It is drawn finer by STEPS around the mesh, as Pillow widens polygons by a pixel."""
-    from PIL import Image, ImageDraw
+    from PIL import Image, ImageDraw  # type: ignore[import-not-found,unused-ignore]
     width, height = camera["width"], camera["height"]
     mask = np.zeros((height, width), bool)
     focal, centre = np.array([camera["fx"], camera["fy"]]), np.array([camera["cx"], camera["cy"]])
@@ -151,7 +151,7 @@ def box(np, mask):
 
 
 def read_exr(np, path):
-    import OpenEXR
+    import OpenEXR  # type: ignore[import-not-found,unused-ignore]
     with OpenEXR.File(str(path)) as file:
         return next(iter(file.channels().values())).pixels.astype(np.float64)
 
@@ -174,7 +174,7 @@ def check(run, frames):
 
 
 def write_scene(np, run, folder, camera, pieces):
-    from PIL import Image
+    from PIL import Image  # type: ignore[import-not-found,unused-ignore]
     frames, scene = run / "frames", folder / "test" / "000001"
     for name in ("rgb", "depth", "mask", "mask_visib"):
         (scene / name).mkdir(parents=True)
@@ -220,8 +220,8 @@ def main(arguments=None):
     try:
         try:
             import numpy as np
-            import OpenEXR  # noqa: F401
-            import PIL  # noqa: F401
+            import OpenEXR  # type: ignore[import-not-found,unused-ignore] # noqa: F401
+            import PIL  # type: ignore[import-not-found,unused-ignore] # noqa: F401
         except ImportError as error:
             raise BopError(f"{error}: pip install numpy pillow OpenEXR") from error
         camera = check(options.run, options.run / "frames")

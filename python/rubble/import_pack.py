@@ -41,7 +41,7 @@ def volume(vertices, faces):
 def read_usd(path, notes):
     """Each UsdGeom.Mesh, by its transforms below the root's, in metres and Z up."""
     try:
-        from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics
+        from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics  # type: ignore[import-not-found,unused-ignore]
     except ImportError as error:
         raise PackError(f"{path}: needs the package usd-core: pip install usd-core ({error})") from error
     try:
@@ -89,7 +89,7 @@ def read_usd(path, notes):
 def read_mjcf(path, notes):
     """Each mesh of the compiled model, in the frame of its file."""
     try:
-        import mujoco
+        import mujoco  # type: ignore[import-not-found,unused-ignore]
         import numpy
     except ImportError as error:
         raise PackError(f"{path}: needs the package mujoco: pip install mujoco ({error})") from error

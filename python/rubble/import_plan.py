@@ -97,10 +97,10 @@ class IfcReader:
 
     def __init__(self, path, plan):
         try:
-            import ifcopenshell
-            import ifcopenshell.geom
-            import ifcopenshell.util.element
-            import ifcopenshell.util.unit
+            import ifcopenshell  # type: ignore[import-not-found,unused-ignore]
+            import ifcopenshell.geom  # type: ignore[import-not-found,unused-ignore]
+            import ifcopenshell.util.element  # type: ignore[import-not-found,unused-ignore]
+            import ifcopenshell.util.unit  # type: ignore[import-not-found,unused-ignore]
         except ImportError as error:
             raise PlanError(f"{path}: needs the package ifcopenshell: pip install ifcopenshell ({error})") from error
         self.ifc, self.path, self.plan = ifcopenshell, path, plan
@@ -243,8 +243,8 @@ class DxfReader:
 
     def __init__(self, path, plan, options):
         try:
-            import ezdxf
-            import ezdxf.units
+            import ezdxf  # type: ignore[import-not-found,unused-ignore]
+            import ezdxf.units  # type: ignore[import-not-found,unused-ignore]
         except ImportError as error:
             raise PlanError(f"{path}: needs the package ezdxf: pip install ezdxf ({error})") from error
         self.path, self.plan, self.options = path, plan, options

@@ -288,7 +288,7 @@ const std::map<std::string, Prefixes> kDoors{
       "app/robots/robot_files.cpp", "app/planning/flight.cpp", "app/provenance/", "app/report/",
       "app/search/program_agent.cpp", "app/support/", "app/victims/place_victims.cpp", "app/view/", "bench/",
       "io/datasets/coco_recorder.cpp", "io/datasets/colmap_recorder.cpp", "io/datasets/frames_recorder.cpp",
-      "io/datasets/nerfstudio_recorder.cpp", "io/datasets/webdataset_recorder.cpp", "io/learning/lerobot_recorder.cpp", "io/mesh_formats/gltf_document.h", "io/mesh/glb_writer.cpp", "io/recording/recording.cpp", "io/scenes/scene_text.cpp",
+      "io/datasets/nerfstudio_recorder.cpp", "io/datasets/webdataset_recorder.cpp", "io/learning/lerobot_dataset.cpp", "io/mesh_formats/gltf_document.h", "io/mesh/glb_writer.cpp", "io/recording/recording.cpp", "io/scenes/scene_text.cpp",
       "io/voids/void_json.cpp", "scripting/reference/json_schema.cpp",
       "scripting/scenario/scenario_json.cpp"}}};
 

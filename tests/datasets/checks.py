@@ -1,5 +1,6 @@
 """Checks of read_datasets.py, each by a reader that others wrote: checks.py DATA [CHECK...]"""
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -212,6 +213,56 @@ def lerobot_is_read_by_pyarrow():
             need(np.abs(image[:, :, ::-1].astype(int) - frames.rgb(i)).mean() < 4, "picture %d of the video", i)
 
 
+def lerobot_has_episodes_of_environments():
+    """Every row and picture of the rollouts, where they are there; what was drawn of each episode."""
+    import cv2
+    import pyarrow.parquet as parquet
+    for name, lengths, rate in (("void", [7, 7, 7], 5), ("crawler", [5, 5], 10)):
+        root = DATA / ("rollouts_" + name)
+        if not root.exists():
+            continue
+        truth = np.load(str(root) + ".npz")
+        info = json.loads((root / "meta" / "info.json").read_text(encoding="ascii"))
+        need((info["total_episodes"], info["total_frames"], info["fps"]) == (len(lengths), sum(lengths), rate), "info.json")
+        table = parquet.read_table(root / info["data_path"].format(chunk_index=0, file_index=0))
+        need(set(table.column_names) == {n for n, f in info["features"].items() if f["dtype"] != "video"}, "columns")
+        for column, key in (("observation.state", "state"), ("action", "action"), ("next.reward", "reward")):
+            need(np.array_equal(np.array(table[column].to_pylist(), np.float32), truth[key].astype(np.float32)), "%s of %s", column, name)
+            need(len(info["features"][column]["names"] or [0]) == np.ravel(truth[key][0]).size, "names of %s", column)
+        need(table["frame_index"].to_pylist() == [i for length in lengths for i in range(length)], "frame_index")
+        need(table["next.done"].to_pylist() == [i + 1 == length for length in lengths for i in range(length)], "next.done")
+        close(table["timestamp"].to_pylist(), [i / rate for length in lengths for i in range(length)], 1e-6, "times")
+        episodes = parquet.read_table(root / "meta" / "episodes" / "chunk-000" / "file-000.parquet").to_pylist()
+        need([e["length"] for e in episodes] == lengths and episodes[-1]["dataset_to_index"] == sum(lengths), "episodes")
+        about = [json.loads(e["info"]) for e in episodes]
+        need([a["seed"] for a in about] == list(range(3, 3 + len(lengths))) and all(a["truncated"] for a in about), "seeds")
+        if name == "crawler":
+            continue
+        need(len({a["reset"]["randomization"]["calibration.range_noise"] for a in about}) == 3, "what was drawn")
+        key = "observation.images.depth"
+        video = cv2.VideoCapture(str(root / info["video_path"].format(video_key=key, chunk_index=0, file_index=0)))
+        for i, depth in enumerate(truth["depth"]):
+            good, image = video.read()
+            need(good, "picture %d", i)
+            episode = episodes[i // 7]
+            close(video.get(cv2.CAP_PROP_POS_MSEC) / 1000, episode["videos/" + key + "/from_timestamp"] + i % 7 / rate, 1e-4, "time %d", i)
+            need(np.abs(image.astype(int) - depth).mean() < 4, "picture %d", i)
+        need(not video.read()[0], "more pictures than rows")
+
+
+def lerobot_doctor_finds_no_fault():
+    """Layout, times, videos and features by a program for such datasets; it may say that episodes are short."""
+    import subprocess
+    program = Path(sys.executable).with_name("lerobot-doctor")
+    for root in sorted([*DATA.glob("*/lerobot"), *(p for p in DATA.glob("rollouts_*") if p.is_dir())]):
+        done = subprocess.run([program, "check", root, "--json"], capture_output=True, text=True, env=dict(os.environ, HF_HUB_OFFLINE="1"))
+        report = json.loads(done.stdout)
+        found = {check["name"]: check["severity"] for check in report["checks"]}
+        need("FAIL" not in found.values() and len(found) > 9, "%s: %s", root, found)
+        for name in ("Metadata & Format Compliance", "Temporal Consistency", "Video Integrity", "Feature Consistency", "Portability"):
+            need(found[name] == "PASS", "%s: %s: %s", root, name, [c for c in report["checks"] if c["name"] == name])
+
+
 def evo_agrees():
     """The numbers of `rubble eval trajectory` are evo's, of TUM and of KITTI files."""
     from evo.core import metrics
@@ -278,7 +329,8 @@ def bop_has_poses_of_objects():
 
 CHECKS = [bop_has_poses_of_objects, rosbags_reads_the_folder, robots_are_as_rep_105_says, mcap_has_one_schema_for_each_type, nerfstudio_projects_points,
           nerfstudio_has_all_cameras, pycolmap_reads_rigs, pycolmap_triangulates_with_rigs, pycocotools_finds_masks,
-          pykitti_reads_odometry, webdataset_decodes, lerobot_is_read_by_pyarrow, mcap_ros2_decodes_all_topics,
+          pykitti_reads_odometry, webdataset_decodes, lerobot_is_read_by_pyarrow, lerobot_has_episodes_of_environments,
+          lerobot_doctor_finds_no_fault, mcap_ros2_decodes_all_topics,
           rerun_converts_without_an_error, evo_agrees,
           pandas_reads_the_table_of_pieces]
 

@@ -103,6 +103,16 @@ def convert(python, program, data):
         raise SystemExit("rubble.bop of a run without instances: " + refused.stderr)
 
 
+def roll_out(program, data):
+    """Episodes of environments, where the Python package is built beside the program."""
+    package = program.parent / "python"
+    if not (package / "rubble/_core.pyi").exists():
+        print("no episodes of environments: the Python package is not built")
+        return
+    environment = dict(os.environ, PYTHONPATH=str(package), PYTHONDONTWRITEBYTECODE="1")
+    subprocess.run(["/usr/bin/python3", HERE / "rollouts.py", data], check=True, env=environment)
+
+
 def main():
     program, folder, wanted = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve(), sys.argv[3:]
     folder.mkdir(parents=True, exist_ok=True)
@@ -113,6 +123,7 @@ def main():
     record(program, folder / "data")
     score(program, folder / "data")
     convert(python, program, folder / "data")
+    roll_out(program, folder / "data")
     environment = dict(os.environ, PYTHONDONTWRITEBYTECODE="1")
     return subprocess.run([python, HERE / "checks.py", folder / "data"] + wanted, check=False, env=environment).returncode
 

@@ -13,6 +13,7 @@
 #include "io/datasets/euroc_recorder.h"
 #include "io/datasets/frames_recorder.h"
 #include "io/image/image_file.h"
+#include "io/learning/lerobot_dataset.h"
 #include "io/learning/lerobot_recorder.h"
 #include "io/learning/parquet_file.h"
 #include "kernel/base/error.h"
@@ -393,6 +394,55 @@ TEST(Lerobot, RefusesCamerasOfTwoRatesAndSecondSequences) {
   Frame later = test::make_frame(1);
   later.starts_sequence = true;
   EXPECT_THROW(sequences->write(later), RunError);
+}
+
+TEST(Lerobot, EpisodesFollowOneAnother) {
+  ScratchFolder folder;
+  LerobotDataset::Spec spec;
+  spec.videos = {"observation.images.eye"};
+  spec.features = {{"observation.state", LerobotFeature::Kind::values, {"a", "b"}},
+                   {"next.reward", LerobotFeature::Kind::number},
+                   {"next.done", LerobotFeature::Kind::flag}};
+  spec.rate_hz = 5, spec.infos = true;
+  LerobotDataset dataset(folder / "le", spec, 1);
+  const auto play = [&](int rows, float first, const std::string& info) {
+    for (int i = 0; i < rows; ++i) {
+      dataset.add_picture(0, i * 200000000LL, 16, 8, std::vector<std::uint8_t>(16 * 8 * 3, 90));
+      dataset.add_row(i * 200000000LL, {{first + float(i), 0}, {0.5f}, {i + 1 == rows ? 1.0f : 0.0f}});
+    }
+    dataset.end_episode(info);
+  };
+  play(3, 0, "first");
+  play(2, 10, "second");
+  EXPECT_THROW(dataset.add_row(0, {{1}, {0}, {0}}), RunError) << "a list of another length";
+  EXPECT_THROW(dataset.add_picture(0, 0, 8, 8, std::vector<std::uint8_t>(8 * 8 * 3)), RunError) << "another size";
+  dataset.finish();
+  const Json info = Json::parse(read_text(folder / "le/meta/info.json"));
+  EXPECT_EQ(info["total_episodes"], 2);
+  EXPECT_EQ(info["total_frames"], 5);
+  EXPECT_EQ(info["fps"], 5);
+  EXPECT_EQ(info["splits"]["train"], "0:2");
+  EXPECT_EQ(info["features"]["next.done"]["dtype"], "bool");
+  EXPECT_EQ(Json::parse(read_text(folder / "le/meta/stats.json"))["observation.state"]["max"][0], 11);
+  EXPECT_NE(read_text(folder / "le/meta/episodes/chunk-000/file-000.parquet").find("second"), std::string::npos);
+  // 18000 ticks of 1/90000 s for each of five pictures: the second episode begins where the first one ends.
+  const std::string mp4 = read_text(folder / "le/videos/observation.images.eye/chunk-000/file-000.mp4");
+  const std::size_t times = mp4.find("stts") + 8;
+  EXPECT_EQ(big_endian_at(mp4, times), 1u);
+  EXPECT_EQ(big_endian_at(mp4, times + 4), 5u);
+  EXPECT_EQ(big_endian_at(mp4, times + 8), 18000u);
+}
+
+TEST(Lerobot, RefusesADatasetWithoutEpisodes) {
+  ScratchFolder folder;
+  LerobotDataset none(folder / "none", {}, 1);
+  EXPECT_THROW(none.finish(), RunError);
+}
+
+TEST(Parquet, HasEightFlagsInAByte) {
+  ParquetTable table;
+  table.add("flag", std::vector<bool>{true, false, false, true, false, false, false, false, true});
+  EXPECT_NE(table.encode().find(std::string("\x09\x01", 2)), std::string::npos);
 }
 
 TEST(Parquet, HasItsFooterAndValues) {

@@ -82,9 +82,11 @@ TEST(PythonEnvironments, KeepWhatGymnasiumAsksOfThem) { expect_tests("test_env_c
 
 TEST(PythonEnvironments, DrawWhatTheyAreToldTo) { expect_tests("test_randomization.py"); }
 TEST(PythonEnvironments, HaveSeveralRobots) { expect_tests("test_team.py"); }
+TEST(PythonEnvironments, AreRecordedAsDatasets) { expect_tests("test_episodes.py"); }
 TEST(PythonEnvironments, StepInBatches) { expect_tests("test_batch.py"); }
 
 TEST(PythonPolicy, SeesAndAnswers) { expect_tests("test_ppo.py -k Senses -k Agent"); }
+TEST(PythonPolicy, IsTrainedByNight) { expect_tests("test_train_nightly.py"); }
 TEST(NightlyPython, APolicyLearns) { expect_tests("test_ppo.py -k Training"); }
 
 TEST(PythonBench, WritesItsTableIntoTheDocument) {

@@ -1,7 +1,9 @@
 """docs/reference/environments.md is what tools/environments_page.py makes of the environments."""
 import importlib.util
+import json
 import os
 import re
+import tempfile
 import unittest
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -23,9 +25,17 @@ class Reference(unittest.TestCase):
     def test_blocks_of_python_run(self):
         with open(os.path.join(ROOT, "docs", "reference", "environments.md")) as file:
             blocks = re.findall(r"^```python\n(.*?)^```", file.read(), re.DOTALL | re.MULTILINE)
-        self.assertEqual(len(blocks), 2)
-        for block in blocks:
-            exec(compile(block, "docs/reference/environments.md", "exec"), {})
+        self.assertEqual(len(blocks), 3)
+        before = os.getcwd()
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            try:
+                for block in blocks:
+                    exec(compile(block, "docs/reference/environments.md", "exec"), {})
+            finally:
+                os.chdir(before)
+            with open("%s/out/episodes/meta/info.json" % folder) as file:
+                self.assertEqual(json.load(file)["total_episodes"], 2)
 
     def test_entries_that_do_not_exist_are_refused(self):
         tool = load_tool()

@@ -49,7 +49,10 @@ def check_types(python, work):
     expected = [TYPED.splitlines().index(line) + 1 for line in TYPED.splitlines()[-3:]]
     assert [int(line[1]) for line in lines] == expected, told
     run(python, "-m", "mypy", "-p", "rubble", check=True, cwd=work)
-    run(python, "-m", "mypy.stubtest", "rubble._core", "--ignore-missing-stub", "--ignore-positional-only", check=True, cwd=work)
+    # nanobind's functions and classes are of types of their own: of these, the members alone are compared.
+    (work / "allowed.txt").write_text("rubble\\._core\\.\\w+(\\.__init__)?\n")
+    run(python, "-m", "mypy.stubtest", "rubble._core", "--ignore-missing-stub", "--ignore-positional-only", "--allowlist", work / "allowed.txt",
+        check=True, cwd=work)
 
 
 def check_in_bare_debian(work, wheels):

@@ -131,33 +131,25 @@ def run_drake(folder, seconds):
 
 
 def run_rapier(folder, seconds):
-    """By its loader of URDF, since that of MJCF leaves out meshes whose vertices are in the file."""
+    """On a box as the ground: pieces slide off the endless plane, which Rapier has for that of the file. Friction of a pair is
+    the mean in Rapier, not the larger one as in MuJoCo: the box has that of the pieces."""
     import rapier3d as r
-    from rapier3d.loaders import urdf
+    from rapier3d.loaders import mjcf
     began = time.time()
-    scene = read_scene(folder / "urdf")
+    scene = read_scene(folder / "mjcf")
     world = r.PhysicsWorld(gravity=(0, 0, -scene["gravity_m_s2"]))
-    sets = (world.rigid_bodies, world.colliders, world.multibody_joints)
     ground = world.rigid_bodies.insert(r.RigidBody.fixed().build())
-    world.colliders.insert_with_parent(r.Collider.cuboid(100, 100, 1).translation((0, 0, -1)).friction(math.sqrt(0.8)).build(), ground, world.rigid_bodies)
-
-    def add(file, position, quaternion, fixed):
-        options = urdf.UrdfLoaderOptions(mesh_converter=r.MeshConverter.CONVEX_HULL, make_roots_fixed=fixed)
-        robot, model = urdf.UrdfRobot.from_file(str(folder / "urdf" / file), options, str((folder / "urdf" / file).parent))
-        robot.append_transform(r.Isometry3(tuple(position), r.Rotation3(*quaternion)))
-        handles = robot.insert_using_multibody_joints(*sets)
-        for link in handles.links:
-            for collider in link.colliders:
-                world.colliders[collider.handle].friction = math.sqrt(0.8)  # URDF has none
-        return {link.name: handle.body for link, handle in zip(model.links, handles.links)}
-    add("fixed.urdf", (0, 0, 0), (1, 0, 0, 0), True)
+    world.colliders.insert_with_parent(r.Collider.cuboid(100, 100, 1).translation((0, 0, -1)).friction(0.8).build(), ground, world.rigid_bodies)
+    options = mjcf.MjcfLoaderOptions(mesh_converter=r.MeshConverter.CONVEX_HULL, skip_plane_geoms=True)
+    robot, _ = mjcf.MjcfRobot.from_file(str(folder / "mjcf/pile.xml"), options)
+    handles = robot.insert_using_multibody_joints(world.rigid_bodies, world.colliders, world.multibody_joints, world.impulse_joints)
+    world.physics_hooks = handles.contact_hooks()
     bodies = {}
-    for model in scene["models"]:
-        if model["file"] == "fixed.urdf" or model["robot"]:
-            continue
-        root = model["links"][0]
-        links = add(model["file"], root["position_m"], root["quaternion_wxyz"], model["fixed"])
-        bodies.update({link["name"]: links[link["name"]] for link in model["links"][1 if model["fixed"] else 0:]})
+    for m, link in free_links(scene):
+        name = link["name"] if len(m["links"]) == 1 else m["name"] + "/" + link["name"]
+        bodies[link["name"]] = handles.bodies[handles.body_names.index(name)].body
+        at = tuple(world.rigid_bodies[bodies[link["name"]]].translation)
+        assert math.dist(at, link["position_m"]) < 1e-5, (name, at)
     loaded = time.time() - began
 
     def where(name):

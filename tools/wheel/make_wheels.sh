@@ -28,12 +28,17 @@ ldd "$build/rubble" | sed -n 's/.* => \(\/[^ ]*\) .*/\1/p' | grep -v "^$work" | 
     [ ! -e "/usr/share/doc/$package/copyright" ] || cp -L "/usr/share/doc/$package/copyright" "$build/python/licences/$package"
   done
 
+# At the end the build is configured as before.
+tools=$work/tools
+cp "$build/CMakeCache.txt" "$work/CMakeCache.txt"
+trap 'cp "$work/CMakeCache.txt" "$build/CMakeCache.txt"; cmake "$build" > "$work/configured.txt" 2>&1' EXIT
+
 for python in "$@"; do
-  version=$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
-  tools=$work/tools_$version
   [ -d "$tools" ] || "$python" -m pip install --quiet --disable-pip-version-check --no-deps --require-hashes --target "$tools" \
     --requirement "$here/requirements.txt"
   rm -rf "$work/raw" && mkdir "$work/raw"
+  # Else scikit-build-core forgets a build that it knows from another folder of tools, and compiles the program anew.
+  rm -f "$build/.skbuild-info.json"
   (export PYTHONPATH="$tools" PATH="$tools/bin:$PATH"
    "$python" -m pip wheel --quiet --disable-pip-version-check --no-build-isolation --no-deps --wheel-dir "$work/raw" \
      --config-settings build-dir="$build" "$here/../.." >&2

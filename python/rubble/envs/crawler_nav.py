@@ -63,6 +63,7 @@ return rubble.mission {
 
 class CrawlerNav(Env):
     metadata = {"render_modes": ["rgb_array"], "render_fps": 10}
+    task = "drive past the pile to the goal"  # of datasets
     randomized = GROUND_KEYS
 
     def __init__(self, mission=MISSION, pile_seeds=range(1, 4), speed=0.6, turn_rate=1.5, period=0.1, max_steps=600,

@@ -63,6 +63,7 @@ _MOST = 1000.0  # of a component of the observation that has no limit of its own
 
 class SnakeExplore(Env):
     metadata = {"render_modes": ["rgb_array"], "render_fps": 10}
+    task = "explore a void of the pile"  # of datasets
     randomized = ("calibration.*", "materials.friction", "poses.away")
 
     def __init__(self, mission=MISSION, pile_seeds=range(1, 6), radius=0.12, size=36, fov_deg=90.0, max_range=4.0,

@@ -64,6 +64,7 @@ return rubble.mission {
 
 class VoidExplore(Env):
     metadata = {"render_modes": ["rgb_array"], "render_fps": 5}
+    task = "explore a void of the pile"  # of datasets
     randomized = ("calibration.*", "poses.yaw_deg", "light.*", "weather.*")  # the last two: with colour
 
     def __init__(self, mission=MISSION, pile_seeds=range(1, 6), radius=0.15, size=64, fov_deg=90.0, max_range=5.0,

@@ -1,7 +1,5 @@
-"""Tells gymnasium of Rubble's environments when it is imported, by the entry point `gymnasium.envs` of the wheel.
-
-Apart from the package, which loads Rubble's libraries: those who make other environments do not wait for them.
-"""
+"""Tells gymnasium of Rubble's environments. Gymnasium 1 asks no installed package for its own: users import rubble.envs, or
+name it, as in gymnasium.make("rubble.envs:rubble/VoidExplore-v0")."""
 import functools
 
 STEPS = {"CrawlerNav": 600, "SnakeExplore": 600, "VoidExplore": 500}

@@ -134,7 +134,7 @@ class Sessions(unittest.TestCase):
 
     def test_surroundings_are_felt(self):
         refused = None
-        for y in range(8, 20, 2):  # across the street, into a house
+        for y in range(2, 20):  # away from the pile, into whatever stands there
             robot = rubble.RobotWorld(self.pile, "rover", rubble.pose([1, y, 0.002]), threads=1)
             try:
                 robot.step()

@@ -6,17 +6,16 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <string>
 #include <vector>
 
+#include "app/support/drawing_device.h"
 #include "bench/calibration.h"
 #include "bench/process_times.h"
 #include "bench/program.h"
 #include "bench/render_views.h"
 #include "kernel/base/system/thread_count.h"
 #include "kernel/base/system/disk_cache.h"
-#include "render/devices/make_device.h"
 #include "render/renderer.h"
 
 namespace rubble {
@@ -29,8 +28,7 @@ struct Request {
   std::vector<int> sizes = {1024, 512};
   int frames = 30;
   int threads = 0;
-  DeviceKind device = DeviceKind::software;
-  int gl_device = -1;
+  std::string device;
   bool csv = false, split = false;
   std::string pictures;
   int fines = 0;
@@ -159,8 +157,7 @@ ExitCode bench(const Request& request) {
                                          std::fprintf(stderr, "render_bench: %s\n", line);
                                        }, request.fines, request.surroundings);
   const double load_ms = since(session.start);
-  const std::unique_ptr<Device> device =
-      make_device({request.gl_device >= 0 ? DeviceKind::gl : request.device, request.gl_device, threads});
+  const std::unique_ptr<Device> device = open_device(request.device, threads);
   RenderOptions options;
   if (request.draft) options.colour.quality = RenderQuality::draft;
   options.threads = threads;
@@ -201,11 +198,8 @@ ExitCode run(int argc, char** argv) {
   app.add_option("--threads", request.threads, "0: all processors")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  const std::map<std::string, DeviceKind> devices{{"software", DeviceKind::software}, {"gl", DeviceKind::gl}};
-  app.add_option("--device", request.device, "What draws; software if not given")
-      ->transform(CLI::CheckedTransformer(devices));
-  app.add_option("--gl-device", request.gl_device, "Number of the EGL device that draws; -1: the first that works, if gl draws")
-      ->capture_default_str();
+  app.add_option("--device", request.device, "What draws: " + describe_devices() + "; default: as $RUBBLE_DEVICE, else software")
+      ->check([](const std::string& text) { return read_device(text) ? std::string() : "expected " + describe_devices(); });
   app.add_option("--pictures", request.pictures, "Also write each view's last frame, PREFIXview.ppm");
   app.add_option("--fines", request.fines, "Loose pieces that are strewn over the pile first (docs/explanation/fines.md)")
       ->check(CLI::Range(0, 1000000))

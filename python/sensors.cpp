@@ -45,7 +45,7 @@ class FrameRenderer {
  public:
   FrameRenderer(SharedPile settled, int threads)
       : settled_(std::move(settled)),
-        device_(open_device(-1, threads)),
+        device_(open_device(settled_->mission.scenario.device, "", threads)),
         renderer_(prepare_renderer(scene_of(*settled_), settled_->mission.scenario.cameras.front().camera.colour, *device_, {threads, {}, {}})) {}
 
   nb::dict render(const DoubleArray& world_from_camera, int width, int height, double fov_deg, int number,

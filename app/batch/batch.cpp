@@ -159,6 +159,8 @@ class Batch {
               std::to_string(run.seed),
               "--out",
               folder_.of(run.name)};
+      const std::string& device = request_.of.options.device;
+      if (!request_.pile_only && !device.empty()) list.insert(list.end(), {"--device", device});
       for (const std::string& text : request_.of.overrides)
         list.insert(list.end(), {"--set", text});
       for (const std::string& text : sweep_.overrides(run.variant))

@@ -115,6 +115,8 @@ class Suite {
                        "--quiet",
                        "--threads",
                        std::to_string(shape_.threads)};
+      if (!c.run->pile_only && !request_.options.device.empty())
+        job.arguments.insert(job.arguments.end(), {"--device", request_.options.device});
       if (!seeds_[i].empty()) job.arguments.insert(job.arguments.end(), {"--seed", seeds_[i]});
       for (const std::string& text : c.run->set)
         job.arguments.insert(job.arguments.end(), {"--set", text});

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "app/support/drawing_device.h"
+
 namespace rubble {
 
 void add_mission_options(CommandLine& line, RunRequest& request, const std::string& name) {
@@ -37,11 +39,17 @@ void add_threads_option(CommandLine& line, int& threads) {
       .between(0, 256);
 }
 
-void add_device_option(CommandLine& line, int& device) {
-  line.add("--gl-device", device, "Let this graphics card draw, by its number in `rubble info --gl`")
-      .shows_default_text("as $RUBBLE_DEVICE says")
-      .metavar("N")
-      .between(0, 1000);
+void add_device_option(CommandLine& line, std::string& device) {
+  const auto read = [&device](const std::string& text) -> std::string {
+    if (!read_device(text)) return "expected " + describe_devices() + ", found " + text;
+    device = text;
+    return "";
+  };
+  line.add_read("--device", read,
+                "What draws: `software`, this program on the processor, without any driver, or `gl`, a graphics card. "
+                "`gl:N` is the card with the number N in `rubble info --gl`")
+      .shows_default_text("$RUBBLE_DEVICE, else the key `device` of the mission; of a finished run, the device of its manifest")
+      .metavar("DEVICE");
 }
 
 void add_size_option(CommandLine& line, int& width, int& height) {
@@ -70,7 +78,7 @@ void add_packs_option(CommandLine& line, std::vector<std::string>& folders,
 }
 
 void add_run_options(CommandLine& line, RunOptions& options) {
-  add_device_option(line, options.gl_device);
+  add_device_option(line, options.device);
   add_threads_option(line, options.threads);
   add_quiet_option(line, options.quiet);
 }
@@ -105,6 +113,7 @@ void add_jobs_options(CommandLine& line, int& jobs, RunOptions& options) {
   line.add("--threads", options.threads, "Threads of each run")
       .shows_default_text("the number of processors, divided by --jobs")
       .between(0, 256);
+  add_device_option(line, options.device);
   add_quiet_option(line, options.quiet);
 }
 

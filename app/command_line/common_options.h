@@ -18,7 +18,8 @@ void add_track_option(CommandLine& line, RunRequest& request);
 
 void add_threads_option(CommandLine& line, int& threads);
 
-void add_device_option(CommandLine& line, int& device);
+// For commands that draw.
+void add_device_option(CommandLine& line, std::string& device);
 
 // Of the image that a window shows; both must outlive the parsing and hold the default.
 void add_size_option(CommandLine& line, int& width, int& height);

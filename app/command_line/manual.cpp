@@ -22,9 +22,7 @@ ProgramText program_text() {
                         "`../share/rubble/assets`"},
       {"RUBBLE_THREADS", "Number of threads without --threads; default: one per processor"},
       {"RUBBLE_CACHE", "Folder of the cache; default: ~/.cache/rubble; `off`: no cache"},
-      {"RUBBLE_DEVICE", "What draws: `software` (default), this program on the processor, without any driver, or `gl`, a "
-                        "graphics card"},
-      {"RUBBLE_EGL_DEVICE", "Number of the EGL device for `gl`; default: the first that works, hardware before software"}};
+      {"RUBBLE_DEVICE", "What draws without --device: `software`, `gl` or `gl:N`; default: the key `device` of the mission"}};
   return text;
 }
 

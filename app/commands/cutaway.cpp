@@ -192,7 +192,7 @@ ExitCode draw_cutaway(const FolderRequest& request, const CutawayRequest& cutawa
   const View view(section, y, cutaway.width * kOversample);
   RenderOptions options;
   options.threads = RunContext(request.options).threads();
-  const std::unique_ptr<Device> device = open_device(request.options.gl_device, options.threads);
+  const std::unique_ptr<Device> device = open_device(request.options.device, options.threads);
   Renderer renderer(*device, section.scene, options);
   Frame frame;
   for (int i = 0; i < 3; ++i)
@@ -216,7 +216,7 @@ Action declare_cutaway(CommandLine& line) {
   const auto of = std::make_shared<FolderRequest>();
   const auto request = std::make_shared<CutawayRequest>();
   add_folder_options(line, *of);
-  add_device_option(line, of->options.gl_device);
+  add_device_option(line, of->options.device);
   add_threads_option(line, of->options.threads);
   line.add("--y", request->y, "Position of the section plane on the Y axis")
       .shows_default_text("0; where that cuts nothing, the middle of the pieces")

@@ -26,7 +26,7 @@ Action declare_drive(CommandLine& line) {
       .shows_default_text("out/<script>_drive")
       .metavar("DIR");
   line.add_flag("--force", request->of.force, "Replace the files of an earlier drive");
-  add_device_option(line, request->of.options.gl_device);
+  add_device_option(line, request->of.options.device);
   add_threads_option(line, request->of.options.threads);
   add_quiet_option(line, request->of.options.quiet);
   return [request] { return drive_mission(*request); };

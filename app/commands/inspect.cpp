@@ -19,7 +19,7 @@ Action declare_inspect(CommandLine& line) {
       .between(0, 1000000000);
   line.add("--out", request->of.out, "Output folder").shows_default_text("out/<script>_inspect").metavar("DIR");
   line.add_flag("--force", request->of.force, "Replace the files of an earlier inspection");
-  add_device_option(line, request->of.options.gl_device);
+  add_device_option(line, request->of.options.device);
   add_threads_option(line, request->of.options.threads);
   add_quiet_option(line, request->of.options.quiet);
   return [request] { return inspect_mission(*request); };

@@ -204,7 +204,7 @@ std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
   drawn.cameras.front().camera.colour = ColourSpec();
   const Scene scene = world->robots ? world->robots->build_scene(drawn)
                                     : build_scene(drawn, world->assets, world->pile);
-  world->device = open_device(of.options.gl_device, run.threads());
+  world->device = open_device(drawn.device, of.options.device, run.threads());
   world->renderer = prepare_renderer(scene, drawn.cameras.front().camera.colour, *world->device,
                                      {world->threads,
                                       [&](double fraction) {

@@ -7,6 +7,7 @@
 #include "app/mission/finished_run.h"
 #include "app/scene/build_scene.h"
 #include "app/support/build_info.h"
+#include "app/support/drawing_device.h"
 #include "app/support/json_members.h"
 #include "app/support/print.h"
 #include "app/victims/place_victims.h"
@@ -22,10 +23,21 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kRunFormat = "rubble unfinished run 1";
 
+// What a person asked to draw, as a key of the mission: so the manifest says it. --set overrides the variable.
+std::vector<std::string> device_override(const RunRequest& request) {
+  const std::optional<AskedDevice> asked = asked_device(request.options.device);
+  for (const std::string& text : request.overrides)
+    if (!request.options.device.empty() && text.compare(0, 7, "device=") == 0)
+      throw InputError({"", 0, "--device", "is given beside --set " + text, "one of them", request.options.device, ""});
+  if (!asked) return {};
+  return {"device=" + device_names()[std::size_t(asked->kind)]};
+}
+
 MissionOptions mission_options(const RunRequest& request) {
   MissionOptions options;
   options.seed = request.seed;
-  options.overrides = request.overrides;
+  options.overrides = device_override(request);
+  options.overrides.insert(options.overrides.end(), request.overrides.begin(), request.overrides.end());
   if (request.track) options.overrides.push_back("outputs.track=true");
   return options;
 }

@@ -36,12 +36,11 @@ std::map<std::string, std::string> describe_environment(const DeviceInfo& info, 
   return out;
 }
 
-void say_if_idle(const RunOptions& options) {
-  const bool software = asked_device(options.gl_device) == DeviceKind::software;
-  const std::string card = software && !options.quiet ? find_card() : "";
+void say_if_idle(DeviceKind kind, const RunOptions& options) {
+  const std::string card = kind == DeviceKind::software && !options.quiet ? find_card() : "";
   if (card.empty()) return;
   print_err("note: the graphics card %s is not used: the software device draws, with the same bits on every machine. "
-            "RUBBLE_DEVICE=gl uses the card\n", card.c_str());
+            "--device gl uses the card\n", card.c_str());
 }
 
 std::vector<std::string> names_of_cameras(const Scenario& scenario) {
@@ -245,8 +244,9 @@ void record(const std::vector<Leg>& legs, const ResolvedMission& mission, const 
 RecordedFrames record_frames(const ResolvedMission& mission, const SettledPile& pile,
                              const DrivenRobots& robots, const std::vector<Leg>& legs,
                              RunFolder& folder, RunContext& context) {
-  say_if_idle(context.options);
-  const std::unique_ptr<Device> device = open_device(context.options.gl_device, context.threads());
+  const DeviceKind kind = mission.scenario.device;
+  say_if_idle(kind, context.options);
+  const std::unique_ptr<Device> device = open_device(kind, context.options.device, context.threads());
   RecordedFrames recorded;
   recorded.hashes = FrameHashes(names_of_cameras(mission.scenario), channels_of_sensors(mission.scenario));
   recorded.environment = describe_environment(device->info(), context.threads());

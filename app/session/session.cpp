@@ -146,7 +146,7 @@ void Session::make_sensors() {
   for (const std::size_t i : depths) sensors_.push_back({make_depth_sensor(parts, i), scenario_.cameras[i].ride});
   if (!colours.empty() && !colours_)
     colours_ = std::make_unique<LiveColours>(
-        open_device(context_.options.gl_device, context_.threads()), scene, scenario_.cameras, colours,
+        open_device(scenario_.device, context_.options.device, context_.threads()), scene, scenario_.cameras, colours,
         LiveColoursOptions{context_.threads(), [this](double done) {
                              context_.progress.update(0, "light " + std::to_string(int(100 * done)) + " %");
                            }});

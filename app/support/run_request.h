@@ -22,11 +22,11 @@ struct LiveRequest {
   double wait = 0;         // --wait-for-subscribers; unit: s
 };
 
-// How to run, whatever is run: none of it changes a result.
+// How to run, whatever is run: none of it but the device changes a result.
 struct RunOptions {
   int threads = 0;               // --threads; 0: all processors
   bool quiet = false;            // --quiet: no progress
-  int gl_device = -1;            // --gl-device, see GlContextOptions
+  std::string device;            // --device, as read_device() takes it; "": as $RUBBLE_DEVICE or the mission says
   double checkpoint_every = 10;  // --checkpoint-every, while settling; unit: s
   LiveRequest live;              // publishing while it runs; off by default
 };

@@ -6,6 +6,7 @@
 
 #include "kernel/base/portable_math.h"
 #include "render/materials/surface_appearance.h"
+#include "render/surface/scalar_surface.h"
 
 namespace rubble {
 
@@ -115,8 +116,8 @@ bool has_lamp(const FrameLight& frame) { return frame.lamp.on && frame.lamp.inte
 bool light_shows(const FrameLight& light, float white_radiance, float exposure) {
   // Exposed radiance that moves the darkest of 8-bit values by a quarter, see shaders/tone.glsl.
   constexpr float kUnseen = 4e-4f;
-  // And the peak of the mirrored part; of water, see surface.glsl.
-  const float film = light.wetness > 0 ? mirrored_peak(0.02f, 0.12f) : 0.0f;
+  // And the peak of the mirrored part.
+  const float film = light.wetness > 0 ? mirrored_peak(scalar::kWaterReflectance, scalar::kFilmRoughness) : 0.0f;
   return white_radiance * exposure * (1 + light.most_gloss + film) > kUnseen;
 }
 

@@ -39,7 +39,7 @@ struct FrameLight {
 Vec3f lamp_colour(const LampSpec& lamp);
 
 // The most that a look mirrors of a light in any direction, as a multiple of what white matt
-// plaster throws back; see gloss_lobe() in shaders/surface.glsl.
+// plaster throws back; see gloss_lobe() in shaders/surface_model.glsl.
 float mirrored_peak(float reflectance, float roughness);  // as in MirrorLayer
 
 // Cameras take most of the light's own colour away: gains for a level grey surface under the open

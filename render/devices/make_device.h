@@ -7,12 +7,9 @@
 #include <vector>
 
 #include "render/device/device.h"
+#include "render/scene/device_kind.h"
 
 namespace rubble {
-
-// software: this program, on the processor, with the same bits on every machine. gl: a graphics card, by OpenGL; steps
-// of 8 bits differ here and there.
-enum class DeviceKind { software, gl };
 
 struct DeviceChoice {
   DeviceKind kind = DeviceKind::software;

@@ -2,13 +2,14 @@
 
 #include <cmath>
 
-#include "render/materials/glass.h"
+#include "render/surface/scalar_surface.h"
 
 namespace rubble {
 
 namespace {
 
 constexpr int kMostFaces = 64;  // that one ray crosses
+const float kMeanHaze = scalar::kHazeLeast + 0.5f * scalar::kHazeMore;
 
 }  // namespace
 
@@ -46,7 +47,7 @@ Vec3f GlassSheets::passed(RayScene::Ray ray) const {
     const RayScene::PreciseHit hit = next(ray);
     if (hit.triangle == RayScene::kNone) break;
     const float cosine = std::fabs(dot(normal_of(triangles()[hit.triangle]), ray.direction));
-    const Vec3f passed = find_sheet_shares(cosine).passed * (1 - kMeanHaze);
+    const Vec3f passed = scalar::to_vec3(scalar::find_sheet_shares(cosine).passed) * (1 - kMeanHaze);
     share = {share.x * passed.x, share.y * passed.y, share.z * passed.z};
     ray.nearest = just_behind(hit.distance);
   }

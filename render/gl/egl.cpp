@@ -13,7 +13,7 @@ namespace rubble {
 const char* const kEglInstallHint =
     "on Debian install libegl1, libegl-mesa0 and libgl1-mesa-dri (software or Mesa drivers), or "
     "the vendor's driver with its EGL library; `rubble info --gl` shows what each device says, "
-    "--gl-device N or RUBBLE_EGL_DEVICE=N chooses one";
+    "--device gl:N or RUBBLE_DEVICE=gl:N chooses one";
 
 std::string egl_error_name(EGLint code) {
   switch (code) {

@@ -1,6 +1,5 @@
 #include "render/gl/gl_context.h"
 
-#include <cerrno>
 #include <cstdlib>
 
 #include "kernel/base/error.h"
@@ -18,19 +17,6 @@ namespace rubble {
 
 namespace {
 
-int chosen_device(const GlContextOptions& options) {
-  if (options.device >= 0) return options.device;
-  const char* text = std::getenv("RUBBLE_EGL_DEVICE");
-  if (!text || !*text) return -1;
-  char* end = nullptr;
-  errno = 0;
-  const long value = std::strtol(text, &end, 10);
-  if (*end || errno || value < 0 || value > 1000)
-    throw RunError(std::string("RUBBLE_EGL_DEVICE must be the number of an EGL device, found \"") +
-                   text + "\"");
-  return int(value);
-}
-
 // Those that may be used, in the order in which they are tried.
 std::vector<EglCandidate> candidates_for(const Egl& egl, int device) {
   const std::vector<EglCandidate> all = list_egl_candidates(egl);
@@ -46,8 +32,7 @@ std::vector<EglCandidate> candidates_for(const Egl& egl, int device) {
 
 std::string why_chosen(const GlContextOptions& options, const EglCandidate& candidate,
                        const std::vector<std::string>& failed) {
-  if (options.device >= 0) return "asked for by option";
-  if (candidate.device >= 0 && chosen_device(options) >= 0) return "asked for by RUBBLE_EGL_DEVICE";
+  if (options.device >= 0) return "asked for by its number";
   if (failed.empty()) return candidate.software ? "no device is hardware" : "the first that works";
   return "the first that works, after " + std::to_string(failed.size()) + " that do not";
 }
@@ -157,7 +142,7 @@ GlContext::GlContext(const GlContextOptions& options) : state_(std::make_unique<
   if (options.threads > 0) setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 0);
   state_->egl = load_egl();
   std::vector<std::string> failed;
-  for (const EglCandidate& candidate : candidates_for(state_->egl, chosen_device(options))) {
+  for (const EglCandidate& candidate : candidates_for(state_->egl, options.device)) {
     const std::string failure = state_->try_open(candidate);
     if (failure.empty()) {
       state_->info.why = why_chosen(options, candidate, failed);

@@ -20,8 +20,7 @@ struct GlInfo {
 };
 
 struct GlContextOptions {
-  // Which EGL device to use, counted as EGL lists them; -1: the environment variable
-  // RUBBLE_EGL_DEVICE if set, else the first that works, hardware before software.
+  // Which EGL device to use, counted as EGL lists them; -1: the first that works, hardware before software.
   int device = -1;
   // Threads of a software rasteriser (0: its own choice). Used only when LP_NUM_THREADS is unset.
   int threads = 0;

@@ -92,8 +92,14 @@ std::string name_files_in_log(const std::string& log, const std::vector<std::str
 
 GlProgram make_program(const Gl& gl, const std::string& vertex_file,
                        const std::string& fragment_file, const ShaderDefines& defines) {
-  const GLuint vertex = compile(gl, GL_VERTEX_SHADER, expand_shader(vertex_file, defines));
-  const GLuint fragment = compile(gl, GL_FRAGMENT_SHADER, expand_shader(fragment_file, defines));
+  return make_program(gl, expand_shader(vertex_file, defines), expand_shader(fragment_file, defines),
+                      vertex_file + " and " + fragment_file);
+}
+
+GlProgram make_program(const Gl& gl, const ExpandedShader& vertex_text, const ExpandedShader& fragment_text,
+                       const std::string& what) {
+  const GLuint vertex = compile(gl, GL_VERTEX_SHADER, vertex_text);
+  const GLuint fragment = compile(gl, GL_FRAGMENT_SHADER, fragment_text);
   GlProgram program(gl);
   gl.AttachShader(program.name(), vertex);
   gl.AttachShader(program.name(), fragment);
@@ -105,8 +111,7 @@ GlProgram make_program(const Gl& gl, const std::string& vertex_file,
   if (ok) return program;
   std::string log(4096, '\0');
   gl.GetProgramInfoLog(program.name(), GLsizei(log.size()), nullptr, &log[0]);
-  throw RunError("shaders " + vertex_file + " and " + fragment_file + " do not link:\n" +
-                 log.c_str());
+  throw RunError("shaders " + what + " do not link:\n" + log.c_str());
 }
 
 void bind_samplers(const Gl& gl, const GlProgram& program,

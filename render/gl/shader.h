@@ -35,6 +35,9 @@ std::string name_files_in_log(const std::string& log, const std::vector<std::str
 GlProgram make_program(const Gl& gl, const std::string& vertex_file,
                        const std::string& fragment_file, const ShaderDefines& defines = {});
 
+// The same of texts; errors name `what`.
+GlProgram make_program(const Gl& gl, const ExpandedShader& vertex, const ExpandedShader& fragment, const std::string& what);
+
 // Says which texture unit each sampler reads; unknown names are ignored, since a variant may not
 // use them all.
 void bind_samplers(const Gl& gl, const GlProgram& program,

@@ -374,7 +374,7 @@ const std::vector<SurfaceAppearance>& all_surface_appearances() {
   return looks;
 }
 
-// As shaders/surface.glsl mixes them, with its texture at its mean.
+// As shaders/surface_model.glsl mixes them, with its texture at its mean.
 float mean_red_albedo(const SurfaceAppearance& look, float up) {
   const float t = std::clamp((up - 0.26f) / 0.75f, 0.0f, 1.0f);
   const float dust = t * t * (3 - 2 * t) * look.dust;

@@ -4,26 +4,13 @@
 #include <cmath>
 #include <cstddef>
 
+#include "render/surface/scalar_surface.h"
+
 namespace rubble {
 
 namespace {
 
 constexpr int kMeterEvery = 4;  // as METER in shaders/resolve.frag.glsl
-
-float dither(int x, int y) {  // Jimenez 2014, as in shaders/surface.glsl
-  const float a = float(x) * 0.06711056f + float(y) * 0.00583715f;
-  const float b = 52.9829189f * (a - std::floor(a));
-  return b - std::floor(b);
-}
-
-float tone_curve(float x) {
-  return std::clamp((x * (2.51f * x + 0.12f)) / (x * (2.43f * x + 0.66f) + 0.14f), 0.0f, 1.0f);
-}
-
-float srgb(float x) {
-  const float a = std::sqrt(x), b = std::sqrt(a), c = std::sqrt(b);
-  return std::clamp(0.585122381f * a + 0.783140355f * b - 0.368262736f * c, 0.0f, 1.0f);
-}
 
 }  // namespace
 
@@ -50,11 +37,10 @@ std::vector<std::uint8_t> develop_image(const std::vector<float>& light, int wid
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
-      const float noise = dither(x, y) - 0.5f;
+      const float noise = scalar::grain(float(x), float(y));
       for (int c = 0; c < 3; ++c) {
         const float value = light[i * 3 + std::size_t(c)] * exposure * gains[c];
-        const float shown = srgb(tone_curve(value * 0.8f)) * 255 + noise;
-        out[i * 4 + std::size_t(c)] = std::uint8_t(std::clamp(shown, 0.0f, 255.0f) + 0.5f);
+        out[i * 4 + std::size_t(c)] = std::uint8_t(scalar::clamp(scalar::develop(value, noise), 0.0f, 1.0f) * 255 + 0.5f);
       }
     }
   }

@@ -9,11 +9,7 @@
 #include "frame.glsl"
 #include "geometry.glsl"
 #include "lighting.glsl"
-#ifdef PAINTS
-#include "paint.glsl"
-#endif
 #include "surface.glsl"
-#include "tone.glsl"
 
 uniform usampler2D visibility;
 uniform sampler2D depth_values;
@@ -37,6 +33,16 @@ struct Shading {
   vec3 e, glare;  // on the albedo, and mirrored
 };
 
+void reflect_light(inout Shading sum, Surface s, vec3 e, vec3 to_light, vec3 to_eye) {
+  MirrorAngles angles = find_mirror_angles(s.normal, to_light, to_eye);
+  float lobe = gloss_lobe(s.layers, angles);
+#ifdef WET
+  lobe += film_lobe(s.layers, angles);
+#endif
+  sum.glare += e * lobe;
+  sum.e += e * base_share(s.layers, mirrored_share(s, dot(s.normal, to_light)));
+}
+
 void add_light(inout Shading sum, const int i, const int type, const int first_view,
                const int views, Surface s, vec3 world, vec3 to_eye) {
   vec3 to_light;
@@ -58,8 +64,7 @@ void add_light(inout Shading sum, const int i, const int type, const int first_v
 #ifdef AIR
   e *= air_passes(i, type, world, to_light);
 #endif
-  sum.glare += e * gloss_lobe(s, to_light, to_eye);
-  sum.e += e * base_share(s, to_light);
+  reflect_light(sum, s, e, to_light, to_eye);
 }
 
 vec3 shade(Surface s, vec3 world, vec3 to_eye, vec2 open, float passed) {
@@ -83,23 +88,22 @@ vec3 shade(Surface s, vec3 world, vec3 to_eye, vec2 open, float passed) {
 #endif
   lamp *= max(dot(s.normal, to_lamp), 0.0) * clamp(dot(s.face_normal, to_lamp) * 8.0, 0.0, 1.0) *
           open.y;
-  sum.glare += lamp * gloss_lobe(s, to_lamp, to_eye);
-  sum.e += lamp * base_share(s, to_lamp);
+  reflect_light(sum, s, lamp, to_lamp, to_eye);
 #endif
   // What the mirrors on top throw back of the light all around, the base below does not get.
   float mirrored = mirrored_share(s, dot(s.normal, to_eye));
 #ifdef SURROUNDED
   // Panes and puddles show the sky above the roofs.
   vec3 around = s.ambient * open.x, to_sky = reflect(-to_eye, s.normal);
-  float even = s.gloss.x * (1.0 - smoothstep(0.04, 0.12, s.gloss.z));
+  float even = s.layers.cover * (1.0 - smoothstep(0.04, 0.12, s.layers.roughness));
 #ifdef WET
-  even = max(even, s.film);
+  even = max(even, s.layers.film);
 #endif
   around = mix(around, sky_radiance(vec3(to_sky.xy, max(to_sky.z, 0.01))) * 3.14159,
                even * smoothstep(0.05, 0.4, to_sky.z));
-  return (sum.e * s.albedo * (1.0 - mirrored) + around * mirrored + sum.glare) * 0.318310;
+  return (sum.e * s.layers.albedo * (1.0 - mirrored) + around * mirrored + sum.glare) * 0.318310;
 #else
-  return (sum.e * s.albedo * (1.0 - mirrored) + s.ambient * (open.x * mirrored) + sum.glare) * 0.318310;
+  return (sum.e * s.layers.albedo * (1.0 - mirrored) + s.ambient * (open.x * mirrored) + sum.glare) * 0.318310;
 #endif
 }
 
@@ -161,10 +165,10 @@ void main() {
     vec2 open = texture(openness, (vec2(pixel) + 0.5) / view.zw).xy;
     radiance = shade(s, world, -direction, open, passed);
 #ifdef BEHIND
-    clear = s.clear;
+    clear = s.layers.clear;
 #endif
 #ifdef GLOW
-    radiance += s.glow;
+    radiance += s.layers.glow;
 #endif
 #if CONTENT != 1
     // Clean air veils what is far: the horizon has no edge.
@@ -199,6 +203,8 @@ void main() {
 #elif defined LINEAR
   colour = vec4(radiance, value < 0.0 ? 0.0 : 1.0);
 #else
-  colour = vec4(develop(radiance * (view.y * balance.rgb), grain(vec2(pixel) + wetness.yz)), 1.0);
+  vec3 exposed = radiance * (view.y * balance.rgb);
+  float noise = grain(float(pixel.x) + wetness.y, float(pixel.y) + wetness.z);
+  colour = vec4(develop(exposed.x, noise), develop(exposed.y, noise), develop(exposed.z, noise), 1.0);
 #endif
 }

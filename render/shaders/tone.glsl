@@ -1,22 +1,16 @@
-// From exposed radiance to display values.
-vec3 tone_curve(vec3 x) {
-  // The form of Narkowicz's fit of the ACES curve (2015), with a lighter toe: a camera keeps more of
-  // its shadows than film.
-  return clamp((x * (2.51 * x + 0.12)) / (x * (2.43 * x + 0.66) + 0.14), 0.0, 1.0);
-}
+// From exposed radiance to display values, in the words of surface_model.glsl.
+
+// The form of Narkowicz's fit of the ACES curve (2015), with a lighter toe: a camera keeps more of its shadows than film.
+FN Real tone_curve(Real x) { return clamp((x * (2.51f * x + 0.12f)) / (x * (2.43f * x + 0.66f) + 0.14f), 0.0f, 1.0f); }
 
 // sRGB's transfer function, within 0.001, from square roots.
-vec3 srgb(vec3 x) {
-  vec3 a = sqrt(x), b = sqrt(a), c = sqrt(b);
-  return clamp(0.585122381 * a + 0.783140355 * b - 0.368262736 * c, 0.0, 1.0);
+FN Real encode_srgb(Real x) {
+  Real a = sqrt(x), b = sqrt(a), c = sqrt(b);
+  return clamp(0.585122381f * a + 0.783140355f * b - 0.368262736f * c, 0.0f, 1.0f);
 }
 
-// Noise without visible order, from 0 to 1 (Jimenez 2014).
-float grain(vec2 pixel) {
-  return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
-}
+// Noise without visible order, from 0 to 1 (Jimenez 2014). x, y: of the pixel.
+FN Real grain(Real x, Real y) { return fract(52.9829189f * fract(x * 0.06711056f + y * 0.00583715f)); }
 
-vec3 develop(vec3 x, float noise) {
-  // Half a step of noise hides the steps of 8 bits. It is another for each pose, see frame.glsl.
-  return srgb(tone_curve(x * 0.8)) + (noise - 0.5) * (1.0 / 255.0);
-}
+// Half a step of noise hides the steps of 8 bits. It is another for each pose, see frame.glsl.
+FN Real develop(Real x, Real noise) { return encode_srgb(tone_curve(x * 0.8f)) + (noise - 0.5f) * (1.0f / 255.0f); }

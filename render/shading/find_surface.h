@@ -1,21 +1,16 @@
-// What a pixel's surface is: normal, albedo and baked light, from the triangle it lies on. The
-// formulas of shaders/surface.glsl and shaders/geometry.glsl, by the same names.
+// What a pixel's surface is: normal, layers and baked light, from the triangle it lies on. shaders/surface_model.glsl has
+// the formulas of how it looks; the rest is that of shaders/surface.glsl and shaders/geometry.glsl, by the same names.
 #pragma once
 
-#include "render/shading/glass_sheet.h"
 #include "render/shading/paint.h"
 #include "render/shading/texture_reads.h"
 
 namespace rubble::RUBBLE_ISA {
 
 struct Surface {
-  Real3 normal, face_normal;           // world; with and without relief
-  Real3 albedo;                        // of the matt base; 0 to 1
-  Real3 ambient;                       // klx
-  Real cover, reflectance, roughness;  // of the mirror on top
-  Real3 glow;                          // kcd/m2
-  Real film;                           // share covered by water
-  Real3 clear;                         // share of light that goes straight through
+  Real3 normal, face_normal;  // world; with and without relief
+  Real3 ambient;              // klx
+  SurfaceLayers layers;
 };
 
 // What a placed mesh is, and the point in its frame.
@@ -135,14 +130,6 @@ RUBBLE_INLINE Real3 turned_back(const Real3& v, Mask once, Mask twice) {
   return turned(v, twice, once);
 }
 
-RUBBLE_INLINE Real zigzag(Real x) { return abs(fract(x) - 0.5f); }
-// Breaks the line where the plane of a texture changes, by waves of 40 to 7 mm. It is even, for grains of one value
-// each would show as blocks from near to, and finer waves as a comb. x, y: unit: m.
-RUBBLE_INLINE Real ragged(Real x, Real y) {
-  return 0.14f * zigzag(x * 23.0f + y * 11.0f) + 0.09f * zigzag(y * 61.0f - x * 29.0f) +
-         0.03f * zigzag(x * 127.0f + y * 71.0f) - 0.065f;
-}
-
 struct Look {
   Real3 dark, bright, accent;           // albedos
   Real density;                         // 1 / tile
@@ -159,14 +146,12 @@ RUBBLE_INLINE Look load_look(const ShadingData& d, Int look) {
           as_real(accent.w), as_real(more.x), as_real(more.y), as_real(more.z), as_real(more.w)};
 }
 
-// The look on the one of 26 planes that the surface is nearest to: little stretching, one texture.
+// What a texture shows there.
 struct Pattern {
-  Texel texel;   // slopes, brightness, mask
-  Real3 bent;    // normal with relief, in the mesh
-  Real slow;     // variation over metres, -2 to 2
-  Real debris;   // that covers the ground
-  Real grazing;  // cosine at which the face is seen
-  Real raised;   // out of water: its brightness, in a street against the mean about it
+  Texel texel;          // slopes, brightness, mask
+  Real3 bent;           // normal with relief, in the mesh
+  SurfaceDetail detail;
+  Real grazing;         // cosine at which the face is seen
 };
 
 RUBBLE_INLINE Pattern find_pattern(const ShadingData& d, const PlacedPoint& placed,
@@ -184,107 +169,59 @@ RUBBLE_INLINE Pattern find_pattern(const ShadingData& d, const PlacedPoint& plac
     q = select(cut, q + turned(o, once, twice), q);
     seed_u = select(cut, real(0), seed_u), seed_v = select(cut, real(0), seed_v);
   }
-  const Real3 f = turned(t.smooth, once, twice);
-  const auto nearest = [](Real x) { return floor(x * 1.2f + 0.5f); };
-  const Real3 plane =
-      normalize(Real3{nearest(f.x + ragged(q.x, q.y)), nearest(f.y + ragged(q.y, q.z)), nearest(f.z + ragged(q.z, q.x))});
-  const Mask level_plane = abs(plane.z) > 0.9f;
-  const Real inverse = inverse_sqrt(max(plane.x * plane.x + plane.y * plane.y, 1e-12f));
-  const Real3 along{select(level_plane, real(1), -plane.y * inverse),
-                    select(level_plane, real(0), plane.x * inverse), real(0)};
-  const Real3 across = cross(plane, along);
-  Real u = dot(q, along) * look.density + seed_u * (1.0f / 65536);
-  const Real v = dot(q, across) * look.density + seed_v * (1.0f / 65536);
+  const TextureAxes axes = find_texture_axes(q, turned(t.smooth, once, twice));
+  Real u = dot(q, axes.along) * look.density + seed_u * (1.0f / 65536);
+  const Real v = dot(q, axes.across) * look.density + seed_v * (1.0f / 65536);
   // Slow variation over metres.
-  const auto map_place = [&](Real w, float middle) {
-    const Real a = (w + 0.6f * world.z - middle) * d.frame.ground[2];
-    return 0.5f + 0.5f * a / (1.0f + abs(a));
-  };
-  const Real2 map =
-      read_ground(d, map_place(world.x, d.frame.ground[0]), map_place(world.y, d.frame.ground[1]));
-  out.debris = map.x, out.slow = 4.0f * map.y - 2.0f;
-  // A wall shows another part of its texture every 1.7 m or so, at the boards' joints.
-  u += select(look.layer < 0.5f, 0.37f * floor(v) + 0.21f * floor(v * 0.5f), real(0));
+  const auto& ground = d.frame.ground;
+  const Real2 map = read_ground(d, map_place(world.x, world.z, ground[0], ground[2]),
+                                map_place(world.y, world.z, ground[1], ground[2]));
+  SurfaceDetail& detail = out.detail;
+  detail.debris = map.x, detail.slow = 4.0f * map.y - 2.0f;
+  u += select(look.layer < 0.5f, wall_shift(v), real(0));
   out.grazing = max(-dot(face_normal, direction), 0.05f);
   const Real level =
       max(look.texels + log2(z * d.frame.lens[0]) - 0.5f * log2(out.grazing) - 0.25f, 0.0f);
   const Int layer = to_int(look.layer);
   out.texel = read_image(d.looks, layer, u, v, level);
-  // Where the slow variation is high the ground shows another part of its texture, so that no
-  // repetition meets the eye; between them what lies higher of both.
-  const Mask mixed = Mask(look.dust < 0.2f) & Mask(out.slow > -0.6f);
+  const Mask mixed = Mask(look.dust < 0.2f) & Mask(detail.slow > -0.6f);
   if (any(mixed)) {
     Texel other = read_image(d.looks, layer, v * 0.83f + 0.37f, u * 0.83f + 0.37f, level);
     const Real swapped = other.x;
     other.x = other.y, other.y = swapped;
-    const Real share = smoothstep(-0.15f, 0.15f, out.slow - 0.15f + 0.6f * (other.z - out.texel.z));
+    const Real share = other_part(detail.slow, out.texel.z, other.z);
     out.texel = mix(out.texel, other, select(mixed, share, real(0)));
   }
-  out.raised = out.texel.z;
+  detail.bright = detail.raised = out.texel.z, detail.mask = out.texel.w;
+  detail.soil = look.layer == d.soil;
   if (d.wet && d.surrounded) {
     // Along a street the eye sees a texture repeat: only what is finer than an eighth of it stands
     // out of the water.
     const float coarse = float(d.looks.levels - 1) - 3;
-    out.raised += 0.5f - read_image(d.looks, layer, u, v, max(level, coarse)).z;
+    detail.raised += 0.5f - read_image(d.looks, layer, u, v, max(level, coarse)).z;
   }
   const Real bump = max(look.bump, 0.0f);
   const Real sx = (out.texel.x * 4.0f - 2.0f) * bump, sy = (out.texel.y * 4.0f - 2.0f) * bump;
   out.bent =
-      t.smooth - turned_back(along, once, twice) * sx - turned_back(across, once, twice) * sy;
+      t.smooth - turned_back(axes.along, once, twice) * sx - turned_back(axes.across, once, twice) * sy;
   return out;
 }
 
-// Colour: texture, piece, dust.
-RUBBLE_INLINE void add_colour(const ShadingData& d, const PlacedPoint& placed, const Look& look,
-                              const Pattern& p, Real up, Surface& s) {
-  // On the ground the mask ranks crumbs: the more debris, the more of them lie there, and dust.
-  const Mask soil = look.layer == d.soil;
-  const Real crumbs = smoothstep(0.0f, 0.12f, p.texel.w - 1.0f + 0.05f + 0.75f * p.debris);
-  s.albedo = mix(mix(look.dark, look.bright, p.texel.z),
-                 look.accent * select(soil, 0.55f + 0.7f * p.texel.z, real(1)),
-                 select(soil, crumbs, p.texel.w));
-  s.albedo *= 1.0f + select(soil, real(0.3f), real(0.16f)) * p.slow;
-  const Real tint = (byte_of(placed.turns, 16) * (2.0f / 255) - 1.0f) * look.variation;
-  const Real warm = (byte_of(placed.turns, 24) * (2.0f / 255) - 1.0f) * look.variation * 0.25f;
-  s.albedo *= Real3{(1.0f + tint) * (1.0f + warm), 1.0f + tint, (1.0f + tint) * (1.0f - warm)};
-  if (d.glow) s.glow = s.albedo * (max(-look.bump, 0.0f) / max(grey_of(look.bright), 1e-3f));
-  // Dust settles on what faces up, unevenly, and lets pits and cracks show.
-  const Real dust = smoothstep(0.30f, 1.05f, up + (p.texel.z - 0.45f) * 0.8f) *
-                    select(soil, 0.85f * p.debris, look.dust);
-  const Real grey = 0.55f + 0.75f * p.texel.z;
-  s.albedo = mix(s.albedo, Real3{grey * 0.375f, grey * 0.36f, grey * 0.335f}, dust);
+RUBBLE_INLINE LookColours colours_of(const Look& look) {
   const Real whole = floor(look.gloss);
-  s.cover = 1.0f - dust, s.reflectance = whole * (1.0f / 255);
-  s.roughness = max((look.gloss - whole) * (1.0f / 0.99f), 0.02f);
+  return {look.dark, look.bright, look.accent, look.dust, look.variation, whole * (1.0f / 255),
+          max((look.gloss - whole) * (1.0f / 0.99f), 0.02f), max(-look.bump, 0.0f)};
 }
 
-// As LookSurfaces::add_glass(): what dust covers is matt.
-RUBBLE_INLINE void add_glass(Mask glass, const Pattern& p, Real cosine, Surface& s) {
-  const SheetShares sheet = find_sheet_shares(cosine);
-  const Real dust = (1.0f - s.cover) * kGlassDust, grey = 0.55f + 0.75f * p.texel.z;
-  const Real covered = dust + (1.0f - dust) * (kHazeLeast + kHazeMore * p.texel.z);
-  const Real cover = (1.0f - covered) * sheet.mirrored, base = grey * covered / (1.0f - cover);
-  s.albedo = select(glass, {base * 0.375f, base * 0.36f, base * 0.335f}, s.albedo);
-  s.cover = select(glass, cover, s.cover), s.reflectance = select(glass, real(1), s.reflectance);
-  s.clear = select(glass, sheet.passed * (1.0f - covered), s.clear);
-}
-
-// Water darkens what it soaks into, and stands as a film on what faces up.
-RUBBLE_INLINE void add_water(const ShadingData& d, const Real3& smooth, const Pattern& p,
-                             Surface& s) {
-  const Real up = smooth.z;
-  const Real wet = d.frame.wetness[0] * smoothstep(-0.6f, 0.5f, up + 0.5f * p.slow);
-  s.albedo *= 1.0f - 0.5f * wet;
-  const Real even = smoothstep(0.75f, 0.25f, p.raised);
-  s.film = wet * (0.35f + 0.65f * smoothstep(0.2f, 0.9f, up)) * even;
-  s.cover *= 1.0f - s.film;
-  s.normal = normalize(mix(s.normal, smooth, 0.6f * wet * even));
+RUBBLE_INLINE SurfaceLayers select(Mask m, const SurfaceLayers& a, const SurfaceLayers& b) {
+  return {select(m, a.albedo, b.albedo), select(m, a.cover, b.cover), select(m, a.reflectance, b.reflectance),
+          select(m, a.roughness, b.roughness), select(m, a.film, b.film), select(m, a.glow, b.glow),
+          select(m, a.clear, b.clear)};
 }
 
 RUBBLE_INLINE Surface find_surface(const ShadingData& d, Word placed_id, Word triangle,
                                    const Real3& world, const Real3& direction, Real z) {
   Surface s;
-  s.film = real(0), s.glow = s.clear = {real(0), real(0), real(0)};
   const PlacedPoint placed = find_placed(d, placed_id, world);
   const TrianglePoint t = find_triangle(d, triangle, placed.point);
   const NodeLight light = find_light(d, t, placed.first_light);
@@ -292,25 +229,31 @@ RUBBLE_INLINE Surface find_surface(const ShadingData& d, Word placed_id, Word tr
   const Int look_number = code - to_int((to_real(code) + 0.5f) * (1.0f / 45)) * 45;
   const Look look = load_look(d, look_number);
   s.face_normal = placed.to_world(t.face);
-  const Pattern p = find_pattern(d, placed, t, look, s.face_normal, world, direction, z);
+  Pattern p = find_pattern(d, placed, t, look, s.face_normal, world, direction, z);
   s.normal = normalize(placed.to_world(p.bent));
   const Real3 smooth = placed.to_world(t.smooth);
-  add_colour(d, placed, look, p, smooth.z, s);
+  p.detail.up = smooth.z;
+  const auto varied = [&](int shift) { return byte_of(placed.turns, shift) * (2.0f / 255) - 1.0f; };
+  SurfaceLayers& layers = s.layers;
+  layers = find_layers(colours_of(look), p.detail, varied(16), varied(24));
   if (d.paint_count > 0) {
     const Mask painted = look_number == d.painted_look;
     if (any(painted)) {
       const Real across = z * d.frame.lens[0] * inverse_sqrt(p.grazing) * 0.84f / placed.scale;
       const Paint paint = find_paint(d, Int(triangle), t.weights, t.ab, t.ac, t.smooth, across);
-      s.albedo = select(painted, paint.albedo * (1.0f - paint.metalness), s.albedo);
-      s.cover = select(painted, select(paint.reflectance > 0.0f, real(1), real(0)), s.cover);
-      s.reflectance = select(painted, paint.reflectance, s.reflectance);
-      s.roughness = select(painted, paint.roughness, s.roughness);
+      layers = select(painted,
+                      paint_over(layers, paint.albedo, paint.roughness, paint.metalness, paint.reflectance), layers);
       s.normal = select(painted, normalize(placed.to_world(paint.normal)), s.normal);
     }
   }
   const Mask glass = look_number == d.glass_look;
-  if (d.glass_look >= 0 && any(glass)) add_glass(glass, p, -dot(s.face_normal, direction), s);
-  if (d.wet) add_water(d, smooth, p, s);
+  if (d.glass_look >= 0 && any(glass))
+    layers = select(glass, make_glass(layers, -dot(s.face_normal, direction), p.detail.bright), layers);
+  if (d.wet) {
+    const WetSurface wet = add_water(layers, p.detail, d.frame.wetness[0]);
+    layers = wet.layers;
+    s.normal = normalize(mix(s.normal, smooth, wet.even));
+  }
   const Real lit = max(dot(light.vector, s.normal), 0.15f * length(light.vector));
   s.ambient = Real3{light.red, 1.0f - light.red - light.blue, light.blue} * (3.0f * lit);
   return s;

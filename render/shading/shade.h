@@ -1,5 +1,5 @@
-// From "which triangle is here" to colour: surface, light, air, tone. The formulas of
-// shaders/resolve.frag.glsl and shaders/tone.glsl, by the same names.
+// From "which triangle is here" to colour: surface, light, air, tone. The formulas of shaders/resolve.frag.glsl, by the same
+// names. Those of the surface are in shaders/surface_model.glsl, those of tone in shaders/tone.glsl.
 #pragma once
 
 #include "render/shading/contact.h"
@@ -8,55 +8,6 @@
 #include "render/shading/soft_sun.h"
 
 namespace rubble::RUBBLE_ISA {
-
-inline constexpr float kWaterReflectance = 0.02f, kFilmRoughness = 0.12f;
-
-// Schlick's approximation of Fresnel's law.
-RUBBLE_INLINE Real fresnel(Real reflectance, Real cosine) {
-  const Real c = 1.0f - cosine, c2 = c * c;
-  return reflectance + (1.0f - reflectance) * c2 * c2 * c;
-}
-
-// pi times the BRDF of a rough mirror; see surface.glsl.
-RUBBLE_INLINE Real mirror_lobe(Real reflectance, Real alpha, Real facing, Real half_way, Real lit,
-                               Real seen) {
-  const Real a2 = alpha * alpha;
-  const Real d = facing * facing * (a2 - 1.0f) + 1.0f;
-  const Real shadowing =
-      lit * sqrt(seen * seen * (1.0f - a2) + a2) + seen * sqrt(lit * lit * (1.0f - a2) + a2);
-  return fresnel(reflectance, half_way) * a2 / (d * d * 2.0f * max(shadowing, 1e-3f));
-}
-
-RUBBLE_INLINE Real gloss_lobe(const ShadingData& d, const Surface& s, const Real3& to_light,
-                              const Real3& to_eye) {
-  const Real3 h = normalize(to_light + to_eye);
-  const Real facing = clamp(dot(h, s.normal), 0.0f, 1.0f),
-             half_way = clamp(dot(h, to_eye), 0.0f, 1.0f);
-  const Real lit = max(dot(to_light, s.normal), 0.0f), seen = max(dot(to_eye, s.normal), 0.0f);
-  Real lobe = s.cover * mirror_lobe(s.reflectance, s.roughness, facing, half_way, lit, seen);
-  if (d.wet)
-    lobe += s.film *
-            mirror_lobe(real(kWaterReflectance), real(kFilmRoughness), facing, half_way, lit, seen);
-  return lobe;
-}
-
-// Share of even light from all around that the mirrors throw back at an angle of this cosine
-// (Lagarde 2011).
-RUBBLE_INLINE Real mirrored_share(const ShadingData& d, const Surface& s, Real cosine) {
-  const Real c = 1.0f - clamp(cosine, 0.0f, 1.0f), c2 = c * c, steep = c2 * c2 * c;
-  Real share =
-      s.cover * (s.reflectance + max(1.0f - sqrt(s.roughness) - s.reflectance, 0.0f) * steep);
-  if (d.wet) share += s.film * (kWaterReflectance + (1.0f - std::sqrt(kFilmRoughness)) * steep);
-  return share;
-}
-
-// What mirrors let through to the base from a light, as a multiple of what they let through of even
-// light.
-RUBBLE_INLINE Real base_share(const ShadingData& d, const Surface& s, const Real3& to_light) {
-  const Real mean =
-      s.cover * (s.reflectance + max(1.0f - sqrt(s.roughness) - s.reflectance, 0.0f) * (1.0f / 21));
-  return (1.0f - mirrored_share(d, s, dot(s.normal, to_light))) / (1.0f - mean);
-}
 
 // A pixel's ray and what it meets.
 struct Pixel {
@@ -73,6 +24,20 @@ struct Pixel {
 struct Shading {
   Real3 e, glare;  // on the albedo, and mirrored
 };
+
+RUBBLE_INLINE Real mirrored_share(const ShadingData& d, const Surface& s, Real cosine) {
+  const Real gloss = gloss_share(s.layers, cosine);
+  return d.wet ? gloss + film_share(s.layers, cosine) : gloss;
+}
+
+RUBBLE_INLINE void reflect(const ShadingData& d, const Pixel& pixel, const Surface& s, const Real3& to_light,
+                           const Real3& e, Shading& sum) {
+  const MirrorAngles angles = find_mirror_angles(s.normal, to_light, -pixel.direction);
+  Real lobe = gloss_lobe(s.layers, angles);
+  if (d.wet) lobe += film_lobe(s.layers, angles);
+  sum.glare += e * lobe;
+  sum.e += e * base_share(s.layers, mirrored_share(d, s, dot(s.normal, to_light)));
+}
 
 // Soft shadows of the sun at pixels whose block meets an edge.
 RUBBLE_INLINE void soften(const ShadingData& d, const Pixel& pixel, const Surface& s,
@@ -100,8 +65,7 @@ RUBBLE_INLINE void add_light(const ShadingData& d, int i, const Pixel& pixel, co
   if (!any(lit & Mask(seen > 0.0f))) return;
   Real3 e = light.illuminance * (facing * seen);
   if (d.air) e *= air_passes(d, i, world, light.to_light);
-  sum.glare += e * gloss_lobe(d, s, light.to_light, -pixel.direction);
-  sum.e += e * base_share(d, s, light.to_light);
+  reflect(d, pixel, s, light.to_light, e, sum);
 }
 
 RUBBLE_INLINE void add_lamp(const ShadingData& d, const Pixel& pixel, const Surface& s,
@@ -111,8 +75,7 @@ RUBBLE_INLINE void add_lamp(const ShadingData& d, const Pixel& pixel, const Surf
                clamp(dot(s.face_normal, lamp.to_light) * 8.0f, 0.0f, 1.0f) * in_sight;
   if (d.air) share *= pow(passed, d.frame.air_drops[1]);
   const Real3 e = lamp.illuminance * share;
-  sum.glare += e * gloss_lobe(d, s, lamp.to_light, -pixel.direction);
-  sum.e += e * base_share(d, s, lamp.to_light);
+  reflect(d, pixel, s, lamp.to_light, e, sum);
 }
 
 // clear: share of light that goes straight through.
@@ -123,7 +86,7 @@ inline Real3 shade_surface(const ShadingData& d, const Pixel& pixel, const Real3
   const Word placed = Word(select(nothing, integer(0), Int(pixel.placed) - 1));
   const Word triangle = Word(select(nothing, integer(int(d.any_triangle)), Int(pixel.triangle)));
   const Surface s = find_surface(d, placed, triangle, world, pixel.direction, pixel.z);
-  clear = s.clear;
+  clear = s.layers.clear;
   const OpennessGrid& o = d.openness;
   const Between x = between_clamped((to_real(pixel.x) + 0.5f) * (1.0f / float(d.width)), o.width);
   const Between y = between_clamped((to_real(pixel.y) + 0.5f) * (1.0f / float(d.height)), o.height);
@@ -137,8 +100,8 @@ inline Real3 shade_surface(const ShadingData& d, const Pixel& pixel, const Real3
   if (d.surrounded) {
     // Panes and puddles show the sky above the roofs.
     const Real3 to_sky = pixel.direction - s.normal * (2.0f * dot(s.normal, pixel.direction));
-    Real even = s.cover * (1.0f - smoothstep(0.04f, 0.12f, s.roughness));
-    if (d.wet) even = max(even, s.film);
+    Real even = s.layers.cover * (1.0f - smoothstep(0.04f, 0.12f, s.layers.roughness));
+    if (d.wet) even = max(even, s.layers.film);
     even *= smoothstep(0.05f, 0.4f, to_sky.z);
     if (any(even > 0.0f))
       around =
@@ -146,8 +109,8 @@ inline Real3 shade_surface(const ShadingData& d, const Pixel& pixel, const Real3
               even);
   }
   Real3 out =
-      (sum.e * s.albedo * (1.0f - mirrored) + around * mirrored + sum.glare) * real(0.318310f);
-  if (d.glow) out += s.glow;
+      (sum.e * s.layers.albedo * (1.0f - mirrored) + around * mirrored + sum.glare) * real(0.318310f);
+  if (d.glow) out += s.layers.glow;
   return out;
 }
 
@@ -243,19 +206,9 @@ inline Real3 find_radiance(const ShadingData& d, const Pixel& p) {
   return d.behind ? add_behind(d, p, far, air, clear, radiance) : radiance;
 }
 
-// From exposed radiance to display values; the noise hides the steps of 8 bits.
-RUBBLE_INLINE Real develop(Real x, Real noise) {
-  x *= 0.8f;
-  x = clamp((x * (2.51f * x + 0.12f)) / (x * (2.43f * x + 0.66f) + 0.14f), 0.0f, 1.0f);
-  const Real a = sqrt(x), b = sqrt(a), c = sqrt(b);
-  return clamp(0.585122381f * a + 0.783140355f * b - 0.368262736f * c, 0.0f, 1.0f) +
-         (noise - 0.5f) * (1.0f / 255);
-}
-
 RUBBLE_INLINE Word display_code(const ShadingData& d, const Pixel& p, const Real3& radiance) {
   const FrameBlock& f = d.frame;
-  const Real noise = fract(52.9829189f * fract((to_real(p.x) + f.wetness[1]) * 0.06711056f +
-                                               (to_real(p.y) + f.wetness[2]) * 0.00583715f));
+  const Real noise = grain(to_real(p.x) + f.wetness[1], to_real(p.y) + f.wetness[2]);
   const auto code = [&](Real x, float gain, int shift) {
     const Real shown = clamp(develop(x * (f.view[1] * gain), noise), 0.0f, 1.0f);
     return Word(to_int(shown * 255.0f + 0.5f)) << shift;

@@ -1,4 +1,4 @@
-// What the paint of a triangle is at one point of it: the same as shaders/paint.glsl, whose formulas stand here again.
+// What the paint of a triangle is at one point of it, by the formulas of shaders/surface_model.glsl.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct PaintQuery {
 struct PaintPoint {
   Vec3f albedo;  // linear light, of metal and matt base alike
   Vec3f normal;  // with relief, unit
-  float roughness = 1, metalness = 0, reflectance = 0;  // alpha of the microfacets; at normal incidence
+  float roughness = 1, metalness = 0, reflectance = 0;  // as paint_over() wants them
 };
 
 PaintPoint find_paint(const PaintLayers& layers, const TrianglePaint& paint, const PaintQuery& query);

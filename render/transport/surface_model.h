@@ -12,6 +12,10 @@
 
 namespace rubble {
 
+namespace scalar {
+struct SurfaceLayers;
+}
+
 struct SurfacePoint {
   Vec3f position;         // unit: m
   Vec3f face_normal;      // of the triangle, unit
@@ -38,8 +42,7 @@ class SurfaceModel {
 // Where a flat triangle is met: position and normals; it reflects nothing yet.
 SurfacePoint find_flat_point(const PreparedScene& scene, const SurfaceQuery& query);
 
-// The looks of SurfaceAppearance: the same normals and albedos as shaders/surface.glsl, whose
-// formulas stand here again.
+// The looks of SurfaceAppearance, by the formulas of shaders/surface_model.glsl.
 class LookSurfaces : public SurfaceModel {
  public:
   // wetness: as in Scene. The scene must outlive it.
@@ -61,10 +64,8 @@ class LookSurfaces : public SurfaceModel {
   Placed place(const PlacedMesh& piece) const;
   void find_place(const SurfaceQuery& query, Place& place) const;
   void find_pattern(const SurfaceQuery& query, Place& place) const;
-  void add_colour(const SurfaceQuery& query, const Place& place, SurfacePoint& out) const;
-  void add_paint(const SurfaceQuery& query, const TrianglePaint& paint, const Place& place, SurfacePoint& out) const;
-  void add_water(const Place& place, SurfacePoint& out) const;
-  void add_glass(const SurfaceQuery& query, float dust, const Place& place, SurfacePoint& out) const;
+  void add_paint(const SurfaceQuery& query, const TrianglePaint& paint, const Place& place, SurfacePoint& out,
+                 scalar::SurfaceLayers& layers) const;
   void read_ground(const Vec3f& world, float& debris, float& tone) const;
 
   const PreparedScene& scene_;

@@ -18,6 +18,7 @@
 #include "kernel/model/pile.h"
 #include "kernel/model/surroundings.h"
 #include "kernel/settling/settle.h"
+#include "render/scene/device_kind.h"
 #include "render/scene/scene.h"
 #include "scripting/scenario/camera_scenario.h"
 #include "scripting/scenario/robot_scenario.h"
@@ -193,6 +194,7 @@ struct Scenario {
   SettleOptions settle;  // its `threads` is not part of a scenario: results do not depend on it
   // At least the main light, which has the sky; of the others `spec` alone counts. At most kMostLights.
   std::vector<LightScenario> lights{LightScenario{}};
+  DeviceKind device = DeviceKind::software;  // draws what cameras see
   double wetness = 0;             // of all surfaces; range: 0 to 1
   AirSpec air;                    // fog, smoke, dust
   std::vector<MountedCamera> cameras{MountedCamera{}};  // at least one; if it is not `named`, no other

@@ -16,6 +16,10 @@ void add_top(Schema& k, Scenario& s) {
       .unit("ns");
   k.value("packs", s.packs,
           "Asset packs: names of bundled packs, or folders relative to the script; empty: `concrete`.");
+  k.choice("device", s.device, device_names(),
+           "What draws the cameras' images. `software`: this program on the processor, with the same bits on every machine and "
+           "without any driver. `gl`: a graphics card; colours differ by a step of 8 bits here and there. `--device` and the "
+           "environment variable RUBBLE_DEVICE override it.");
   k.value("wetness", s.wetness,
           "Wetness of all surfaces. Wet surfaces are darker, and glossy where they face up.")
       .between(0, 1);

@@ -161,17 +161,17 @@ TEST(CommandLine, OffersAnOptionWhereItHasAnEffect) {
   std::set<std::string> settling, drawing;
   for (const char* command :
        {"run", "settle", "check", "info", "render", "export", "cutaway", "voids", "assets check", "assets show",
-        "verify", "remake", "resume", "suite", "batch", "report", "view", "pack", "drive", "eval trajectory",
+        "verify", "remake", "resume", "suite", "batch", "report", "view", "pack", "drive", "inspect", "eval trajectory",
         "eval sfm", "eval surface", "eval map", "bench search"}) {
     const std::string help = run_rubble(command + std::string(" --help")).out;
     EXPECT_NE(help.find("--help"), std::string::npos) << command;
     if (help.find("  --checkpoint-every ") != std::string::npos) settling.insert(command);
-    if (help.find("  --gl-device ") != std::string::npos) drawing.insert(command);
+    if (help.find("  --device ") != std::string::npos) drawing.insert(command);
   }
   EXPECT_EQ(settling, (std::set<std::string>{"run", "settle", "resume", "remake"})) << "what settles and can be resumed";
-  EXPECT_EQ(drawing, (std::set<std::string>{"run", "render", "resume", "verify", "remake", "drive", "cutaway",
-                                            "assets show", "info"}));
-  const Outcome show = run_rubble("assets show concrete --gl-device 42 --out /dev/null/none.png");
+  EXPECT_EQ(drawing, (std::set<std::string>{"run", "render", "resume", "verify", "remake", "drive", "cutaway", "batch", "suite",
+                                            "inspect", "assets show", "info"}));
+  const Outcome show = run_rubble("assets show concrete --device gl:42 --out /dev/null/none.png");
   EXPECT_EQ(show.exit_code, 2) << show.err;
   EXPECT_NE(show.err.find("there is no EGL device 42"), std::string::npos) << show.err;
 }
@@ -235,9 +235,9 @@ TEST(Info, NamesTheRendererAndTheLibraries) {
 }
 
 TEST(Info, SaysWhatWasTriedWithoutAWorkingEgl) {
-  const Outcome info = run_rubble("info --gl", "RUBBLE_EGL_DEVICE=99");
+  const Outcome info = run_rubble("info --gl", "RUBBLE_DEVICE=gl:99");
   EXPECT_EQ(info.exit_code, 2);
-  EXPECT_NE(info.err.find("RUBBLE_EGL_DEVICE"), std::string::npos) << info.err;
+  EXPECT_NE(info.err.find("RUBBLE_DEVICE=gl:N"), std::string::npos) << info.err;
 }
 
 TEST(CommandLine, AWrongNumberOfThreadsInTheEnvironmentIsNamed) {

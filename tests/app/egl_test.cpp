@@ -2,7 +2,13 @@
 // what to do. Most are played by a libEGL of ours, which breaks where it is told to.
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <vector>
+
+#include "app/mission/resolved_mission.h"
+#include "app/support/drawing_device.h"
 #include "tests/app/program.h"
+#include "tests/base/environment.h"
 
 namespace rubble::testing {
 namespace egl_test {
@@ -31,7 +37,7 @@ TEST_P(BrokenEgl, IsNamedWithWhatWasTriedAndWhatToDo) {
   EXPECT_EQ(info.exit_code, 2);
   EXPECT_TRUE(holds(info.err, GetParam().says));
   EXPECT_TRUE(holds(info.err, {"cannot draw", "Tried:", "surfaceless platform", "default display",
-                               "libgl1-mesa-dri", "RUBBLE_EGL_DEVICE", "rubble info --gl"}));
+                               "libgl1-mesa-dri", "RUBBLE_DEVICE=gl:N", "rubble info --gl"}));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -61,15 +67,15 @@ TEST(InfoGl, ShowsEveryWayEvenWhereNoneWorks) {
   const Outcome info = with_fake_egl("no_context", "info --gl");
   EXPECT_EQ(info.exit_code, 2);
   EXPECT_TRUE(holds(info.out, {"ways to draw", "EGL device 0 (hardware): no OpenGL 4.5 core context",
-                               "surfaceless platform", "RUBBLE_EGL_DEVICE: not set"}));
+                               "surfaceless platform", "RUBBLE_DEVICE: not set"}));
 }
 
 TEST(InfoGl, SaysWhyADeviceWasChosen) {
-  const Outcome option = run_rubble("info --gl --gl-device 0", "RUBBLE_EGL_DEVICE=7");
+  const Outcome option = run_rubble("info --device gl:0", "RUBBLE_DEVICE=gl:7");
   EXPECT_EQ(option.exit_code, 0) << option.err;
-  EXPECT_TRUE(holds(option.out, {"asked for by option", "RUBBLE_EGL_DEVICE: 7", "texture units"}));
-  const Outcome environment = run_rubble("info --gl", "RUBBLE_EGL_DEVICE=0");
-  EXPECT_TRUE(holds(environment.out, {"asked for by RUBBLE_EGL_DEVICE"}));
+  EXPECT_TRUE(holds(option.out, {"asked for by its number", "RUBBLE_DEVICE: gl:7", "texture units"}));
+  const Outcome environment = run_rubble("info --gl", "RUBBLE_DEVICE=gl:0");
+  EXPECT_TRUE(holds(environment.out, {"asked for by its number"}));
 }
 
 TEST(MissingEgl, ALibraryThatDoesNotLoadIsNamed) {
@@ -113,10 +119,10 @@ TEST(MissingEgl, ARunSaysSoBeforeItHasDrawnAnything) {
   const ScratchFolder folder;
   write_file(folder / "tiny.lua", kTinyMission);
   const Outcome run = run_rubble("run '" + (folder / "tiny.lua") + "' --quiet --out '" +
-                                     (folder / "out") + "' --gl-device 42",
+                                     (folder / "out") + "' --device gl:42",
                                  "");
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_TRUE(holds(run.err, {"there is no EGL device 42", "EGL lists"}));
+  EXPECT_TRUE(holds(run.err, {"there is no EGL device 42", "EGL lists", "the device gl draws because --device"}));
 }
 
 // The software device opens no library of graphics: this one is nowhere.
@@ -138,24 +144,74 @@ TEST(SoftwareDevice, DrawsWhereThereIsNoEgl) {
   EXPECT_TRUE(holds(card.err, {"/nowhere/libEGL.so.1 does not load"}));
 }
 
-TEST(GlDevice, IsNotedInTheManifest) {
+// What a card drew is drawn by one again, whatever the variable says now.
+TEST(GlDevice, IsInTheManifestAndDrawsAgain) {
   const ScratchFolder folder;
   write_file(folder / "tiny.lua", kTinyMission);
-  const Outcome run =
-      run_rubble("run '" + (folder / "tiny.lua") + "' --quiet --out '" + (folder / "out") + "'", "RUBBLE_DEVICE=gl");
+  const Outcome run = run_rubble("run '" + (folder / "tiny.lua") + "' --quiet --device gl --out '" + (folder / "out") + "'",
+                                 "RUBBLE_DEVICE=software");
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_TRUE(holds(read_file(folder / "out/manifest.json"), {"\"device\": \"gl\"", "\"gl_renderer\""}));
-  const Outcome verified = run_rubble("verify '" + (folder / "out") + "' --quiet", "RUBBLE_DEVICE=gl");
+  EXPECT_TRUE(holds(read_file(folder / "out/manifest.json"), {"\"device=gl\"", "\"device\": \"gl\"", "\"gl_renderer\""}));
+  const std::string verify = "verify '" + (folder / "out") + "' --quiet";
+  const Outcome verified = run_rubble(verify, "RUBBLE_DEVICE=software");
   EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+  const Outcome without = run_rubble(verify, kNoEgl);
+  EXPECT_EQ(without.exit_code, 2) << "the control";
+  EXPECT_TRUE(holds(without.err, {"/nowhere/libEGL.so.1 does not load", "the manifest of the run says so"}));
+  const Outcome other = run_rubble(verify + " --device software");
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_TRUE(holds(other.err, {"--device", "is not the device that drew this run", "leave it out"}));
+}
+
+// Nothing but the mission is read: what would draw it is in the scenario that it resolves to.
+TEST(Devices, OptionOverVariableOverMission) {
+  const ScratchFolder folder;
+  std::string mission = kTinyMission;
+  mission.insert(mission.find('{') + 1, " device = \"gl\",");
+  write_file(folder / "by_gl.lua", mission);
+  const auto resolved = [&](const std::optional<std::string>& variable, const std::string& option,
+                            const std::vector<std::string>& set = {}) {
+    const Environment device("RUBBLE_DEVICE", variable);
+    RunRequest request;
+    request.mission = folder / "by_gl.lua", request.overrides = set;
+    request.options.quiet = true, request.options.device = option;
+    RunContext context(request.options);
+    return resolve_mission(request, RunKind::run, context).scenario.device;
+  };
+  EXPECT_EQ(resolved({}, ""), DeviceKind::gl);
+  EXPECT_EQ(resolved("", ""), DeviceKind::gl);
+  EXPECT_EQ(resolved("software", ""), DeviceKind::software);
+  EXPECT_EQ(resolved("software", "gl:1"), DeviceKind::gl);
+  EXPECT_EQ(resolved("gl", "software"), DeviceKind::software);
+  EXPECT_EQ(resolved("gl", "", {"device=software"}), DeviceKind::software);
+  const auto card = [](const std::string& variable, const std::string& option) {
+    const Environment device("RUBBLE_DEVICE", variable);
+    return asked_device(option)->card;
+  };
+  EXPECT_EQ(card("gl:3", ""), 3);
+  EXPECT_EQ(card("gl:3", "gl"), -1);
+  EXPECT_EQ(card("gl", "gl:2"), 2);
 }
 
 TEST(Devices, AreNamedWhereOneIsUnknown) {
   const ScratchFolder folder;
   write_file(folder / "tiny.lua", kTinyMission);
   const std::string run = "run '" + (folder / "tiny.lua") + "' --quiet --out '" + (folder / "out") + "'";
-  const Outcome variable = run_rubble(run, "RUBBLE_DEVICE=vulkan");
-  EXPECT_EQ(variable.exit_code, 1);
-  EXPECT_TRUE(holds(variable.err, {"RUBBLE_DEVICE", "software or gl", "vulkan"}));
+  for (const char* wrong : {"vulkan", "gl:", "gl:first", "gl:-1", "GL", "gl:0x1"}) {
+    EXPECT_FALSE(read_device(wrong)) << wrong;
+    const Outcome variable = run_rubble(run, std::string("RUBBLE_DEVICE=") + wrong);
+    EXPECT_EQ(variable.exit_code, 1) << wrong;
+    EXPECT_TRUE(holds(variable.err, {"RUBBLE_DEVICE", "software, gl, or gl:N", wrong}));
+  }
+  const Outcome option = run_rubble(run + " --device vulkan");
+  EXPECT_EQ(option.exit_code, 1);
+  EXPECT_TRUE(holds(option.err, {"--device", "software, gl, or gl:N", "vulkan"}));
+  const Outcome key = run_rubble(run + " --set device=vulkan");
+  EXPECT_EQ(key.exit_code, 1);
+  EXPECT_TRUE(holds(key.err, {"device", "software", "gl", "vulkan"}));
+  const Outcome both = run_rubble(run + " --device gl --set device=software");
+  EXPECT_EQ(both.exit_code, 1);
+  EXPECT_TRUE(holds(both.err, {"--device", "is given beside --set device=software", "one of them"}));
 }
 
 // A millionth of a second is too short for any light.

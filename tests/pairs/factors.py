@@ -329,6 +329,7 @@ FACTORS = {
 # Keys of the mission's first level that no factor has, each with the reason.
 NOT_FACTORS = {
     "seed": "every mission has its own: the number of its row",
+    "device": "a row needs no graphics driver; tests/render and tests/app compare the devices",
 }
 
 # The names of the published simulator stand for other keys, one to one (docs/reference/missions.md); tests/scripting compares them.

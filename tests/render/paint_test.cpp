@@ -10,6 +10,7 @@
 #include "render/lidar/lidar.h"
 #include "render/reference/image_key.h"
 #include "render/renderer.h"
+#include "render/surface/scalar_surface.h"
 #include "render/transport/paint_point.h"
 #include "scripting/sensors/lidar.h"
 #include "tests/render/test_scene.h"
@@ -219,8 +220,10 @@ TEST(Paint, OfMetalMirrorsItsColour) {
   TrianglePaint triangle;
   triangle.paint = 0;
   const PaintPoint point = find_paint(layers, triangle, {{}, {1, 0, 0}, {0, 0, 1}, 0.01f});
-  EXPECT_NEAR(double(point.reflectance), 0.6, 1e-5);
-  EXPECT_NEAR(double(point.roughness), 0.25, 1e-6) << "alpha is the square";
+  const scalar::SurfaceLayers found =
+      scalar::paint_over({}, scalar::real3(point.albedo), point.roughness, point.metalness, point.reflectance);
+  EXPECT_NEAR(double(found.reflectance), 0.6, 1e-5);
+  EXPECT_NEAR(double(found.roughness), 0.25, 1e-6) << "alpha is the square";
 }
 
 TEST(Paint, IsKnownToTheLidar) {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
-#include "render/materials/glass.h"
 #include "render/reference/traced_image.h"
+#include "render/surface/scalar_surface.h"
 #include "tests/render/traced_world.h"
 
 namespace rubble::testing {
@@ -191,10 +191,10 @@ TEST(FormFactor, OfTwoPlatesIsTheKnownOne) {
 
 // Glass without dust; what it absorbs it glows.
 void find_clean_glass(const SurfaceQuery& q, SurfacePoint& p, bool glows) {
-  const SheetShares sheet = find_sheet_shares(-dot(q.direction, p.face_normal));
+  const scalar::SheetShares sheet = scalar::find_sheet_shares(-dot(q.direction, p.face_normal));
   p.reflection = glossy(0, 1, 0.03f), p.reflection.gloss.cover = sheet.mirrored;
-  p.passed = sheet.passed;
-  if (glows) p.emission = Vec3f(1, 1, 1) * (1 - sheet.mirrored) - sheet.passed;
+  p.passed = scalar::to_vec3(sheet.passed);
+  if (glows) p.emission = Vec3f(1, 1, 1) * (1 - sheet.mirrored) - p.passed;
 }
 
 // By Fresnel's equations, in green, of one sheet without dust.
@@ -222,11 +222,11 @@ TEST(Glass, SharesAreThoseOfFresnelsEquations) {
   EXPECT_NEAR(2 * std::pow(0.52 / 2.52, 2) / (1 + std::pow(0.52 / 2.52, 2)), 0.0817, 1e-4);  // without absorption
   for (const double degrees : {0.0, 30.0, 56.66, 70.0, 85.0}) {
     const double angle = degrees * kPi / 180;
-    const SheetShares sheet = find_sheet_shares(float(std::cos(angle)));
+    const scalar::SheetShares sheet = scalar::find_sheet_shares(float(std::cos(angle)));
     EXPECT_NEAR(double(sheet.mirrored), pane_at(angle).mirrored, 1e-4) << degrees;
     EXPECT_NEAR(double(sheet.passed.y), pane_at(angle).passed, 1e-4) << degrees;
   }
-  const SheetShares facing = find_sheet_shares(1);
+  const scalar::SheetShares facing = scalar::find_sheet_shares(1);
   EXPECT_NEAR(double(facing.passed.x), 0.79, 0.005);
   EXPECT_NEAR(double(facing.passed.y), 0.83, 0.005);
   EXPECT_NEAR(double(facing.passed.z), 0.80, 0.005);

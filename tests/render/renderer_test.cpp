@@ -132,9 +132,9 @@ TEST(Renderer, RefusesWhatItCannotDraw) {
   EXPECT_NE(error_of(Scene{}, pinhole(32, 32, 0)).find("positive"), std::string::npos);
 }
 
-std::string context_error() {
+std::string context_error(int device) {
   try {
-    GlContext context;
+    GlContext context({device, 0});
   } catch (const RunError& error) {
     return error.what();
   }
@@ -142,27 +142,9 @@ std::string context_error() {
 }
 
 TEST(GlContext, NamesWhatItFoundAndWhatToInstall) {
-  const Environment device("RUBBLE_EGL_DEVICE", "99");
-  const std::string error = context_error();
+  const std::string error = context_error(99);
   EXPECT_NE(error.find("no EGL device 99"), std::string::npos) << error;
   EXPECT_NE(error.find("libgl1-mesa-dri"), std::string::npos) << error;
-}
-
-TEST(GlContext, RefusesADeviceThatIsNoNumber) {
-  const Environment device("RUBBLE_EGL_DEVICE", "first");
-  EXPECT_NE(context_error().find("\"first\""), std::string::npos);
-}
-
-TEST(GlContext, TheOptionWinsOverTheEnvironment) {
-  const Environment device("RUBBLE_EGL_DEVICE", "99");
-  GlContextOptions options;
-  options.device = 0;
-  try {
-    const GlContext context(options);
-    EXPECT_NE(context.info().egl_device.find("EGL device 0"), std::string::npos);
-  } catch (const RunError& error) {
-    EXPECT_EQ(std::string(error.what()).find("99"), std::string::npos) << error.what();
-  }
 }
 
 TEST(GlContext, DescribesItself) {

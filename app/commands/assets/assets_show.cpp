@@ -180,7 +180,7 @@ struct AssetsShowRequest {
   std::string pack, out;   // as of `assets check`; --out; empty: NAME.png
   int tile = 288;          // --tile; unit: pixel
   bool collision = false;  // --collision
-  RunOptions options;      // --gl-device, --threads, --quiet
+  RunOptions options;      // --device, --threads, --quiet
 };
 
 ExitCode show_pack(const AssetsShowRequest& request) {
@@ -204,7 +204,7 @@ ExitCode show_pack(const AssetsShowRequest& request) {
     return exhibits[a].radius < exhibits[b].radius;
   });
   progress.start("render");
-  const std::unique_ptr<Device> device = open_device(request.options.gl_device, context.threads());
+  const std::unique_ptr<Device> device = open_device(request.options.device, context.threads());
   std::vector<SheetTile> tiles(exhibits.size());
   for (std::size_t i = 0; i < order.size();) {
     std::vector<Exhibit*> row;

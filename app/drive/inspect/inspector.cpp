@@ -153,7 +153,7 @@ void Inspector::draw_scene(const Scene& scene) {
   options.threads = run_->threads();
   options.bake = false;
   options.colour.quality = RenderQuality::draft;
-  if (!device_) device_ = open_device(run_->options.gl_device, run_->threads());
+  if (!device_) device_ = open_device(mission_->scenario.device, run_->options.device, run_->threads());
   renderer_ = std::make_unique<Renderer>(*device_, scene, options);
   lamp_ = false;
   open_eye();

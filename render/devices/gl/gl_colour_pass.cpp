@@ -31,16 +31,7 @@ ShaderDefines variant_of(const FrameLight& frame, const GlGeometry& geometry) {
   if (frame.wetness > 0) defines.push_back({"WET", ""});
   if (frame.glows) defines.push_back({"GLOW", ""});
   if (frame.surrounded) defines.push_back({"SURROUNDED", ""});
-  if (frame.glass) {
-    const auto& clear = kGlassLog2Clear;
-    defines.push_back({"GLASS", std::to_string(glass_appearance())});
-    defines.push_back({"GLASS_INDEX", std::to_string(kGlassIndex)});
-    defines.push_back({"GLASS_CLEAR", "vec3(" + std::to_string(clear[0]) + ", " + std::to_string(clear[1]) + ", " +
-                                          std::to_string(clear[2]) + ")"});
-    defines.push_back({"GLASS_DUST", std::to_string(kGlassDust)});
-    defines.push_back({"HAZE_LEAST", std::to_string(kHazeLeast)});
-    defines.push_back({"HAZE_MORE", std::to_string(kHazeMore)});
-  }
+  if (frame.glass) defines.push_back({"GLASS", std::to_string(glass_appearance())});
   if (geometry.tables.paint_count > 0) {
     defines.push_back({"PAINTS", std::to_string(geometry.tables.paint_count)});
     defines.push_back({"PAINTED", std::to_string(find_surface_appearance(kPaintedAppearance))});

@@ -12,16 +12,16 @@ local building = rubble.building {
 
 -- A robot that follows a path: its points are {x, y}, in metres. `rubble voids out/demo` draws where there is room.
 local crawler = rubble.robot.crawler {
-  name = "tank", position = { -3.6, -7.4, 0.001 }, rpy_deg = { 0, 0, 90 }, odometry_noise = 0.001,
+  name = "tank", position = { -1.1, -6.8, 0.001 }, rpy_deg = { 0, 0, 90 }, odometry_noise = 0.001,
   lamps = { { position = { 0.28, 0, 0.28 }, rpy_deg = { 0, -5, 0 }, intensity_cd = 200, cone_deg = 120 } },  -- wider than what the camera sees
   control = rubble.robot.follow {
-    path = { { -3.6, -7.4 }, { -3.4, -5.8 }, { -3, -4.4 }, { -2, -3.6 }, { -0.9, -3.4 } }, speed = 0.35,
+    path = { { -1.1, -6.8 }, { -1.1, -5.8 }, { -0.9, -4.8 }, { -0.4, -3.7 }, { -0.4, -1.5 } }, speed = 0.35,
     flippers = { 0.7, 0.7, 0.7, 0.7 },
   },
 }
 
 return rubble.mission {
-  seed = 3,
+  seed = 8,
   packs = { "parking" },
   pile = building,
   robots = { crawler },

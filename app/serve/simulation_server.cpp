@@ -1,8 +1,9 @@
 #include "app/serve/simulation_server.h"
 
+#include <regex.h>
+
 #include <algorithm>
 #include <chrono>
-#include <regex>
 #include <thread>
 
 #include "app/formats/recording_formats.h"
@@ -18,6 +19,24 @@ namespace rubble {
 using namespace simulation_services;
 
 namespace {
+
+// A POSIX extended regular expression; an empty one fits all.
+class NamePattern {
+ public:
+  explicit NamePattern(const std::string& text)
+      : empty_(text.empty()), valid_(empty_ || regcomp(&compiled_, text.c_str(), REG_EXTENDED | REG_NOSUB) == 0) {}
+  NamePattern(const NamePattern&) = delete;
+  NamePattern& operator=(const NamePattern&) = delete;
+  ~NamePattern() {
+    if (valid_ && !empty_) regfree(&compiled_);
+  }
+  bool is_valid() const { return valid_; }
+  bool fits(const std::string& name) const { return empty_ || regexec(&compiled_, name.c_str(), 0, nullptr, 0) == 0; }
+
+ private:
+  regex_t compiled_;
+  bool empty_, valid_;
+};
 
 constexpr std::chrono::milliseconds kNap{2};  // between looks at requests while nothing is simulated
 
@@ -248,18 +267,14 @@ Result SimulationServer::select(const Filters& filters, std::vector<const Entity
   const Bounds& bounds = filters.bounds;
   if (bounds.type == 2 || bounds.type > 3) return {kUnsupported, "bounds: a box (1) or a sphere (3)"};
   if (bounds.type != 0 && bounds.points.size() != 2) return {kFailed, "bounds: two points"};
-  std::regex pattern;
-  try {
-    pattern = std::regex(filters.pattern, std::regex::extended);
-  } catch (const std::regex_error& error) {
-    return {kFailed, "filter: no POSIX extended regular expression: " + filters.pattern};
-  }
+  const NamePattern pattern(filters.pattern);
+  if (!pattern.is_valid()) return {kFailed, "filter: no POSIX extended regular expression: " + filters.pattern};
   for (const Entity& entity : world_.entities()) {
     const auto& categories = filters.categories;
     if (!categories.empty() && std::find(categories.begin(), categories.end(), category_of(world_, entity)) == categories.end())
       continue;
     if (!filters.tags.empty() && !has_tags(entity, filters)) continue;
-    if (!filters.pattern.empty() && !std::regex_search(entity.name, pattern)) continue;
+    if (!pattern.fits(entity.name)) continue;
     const auto state = world_.state_of(entity);
     if (state && (bounds.type == 0 || within(bounds, state->pose.translation))) selected.push_back(&entity);
   }

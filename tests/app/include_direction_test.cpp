@@ -317,7 +317,7 @@ TEST(IncludeDirection, ThirdPartiesStayBehindTheirDoor) {
 
 // Of the C library and the system: no library of others, so no door.
 const Prefixes kSystemHeaders{"sys/",    "unistd.h", "fcntl.h",  "poll.h",    "dlfcn.h", "time.h",
-                              "net",     "arpa/",    "linux/",   "dirent.h",  "spawn.h", "termios.h",
+                              "net",     "arpa/",    "linux/",   "dirent.h",  "spawn.h", "regex.h", "termios.h",
                               "pthread", "sched.h",  "signal.h", "immintrin.h",
                               "emmintrin.h", "xmmintrin.h", "sanitizer/common_interface_defs.h",
                               "arm_neon.h", "stdio.h", "ifaddrs.h"};

@@ -83,6 +83,7 @@ TEST(RoughGround, FollowsFromTheSeedAlone) {
   EXPECT_EQ(rough(small, 5).heights, rough(small, 5).heights);
   EXPECT_NE(rough(small, 5).heights, rough(small, 6).heights);
   EXPECT_THROW(rough("class = 'H'", 1), InputError);
+  EXPECT_THROW(rough("longest = 2, spacing = 1", 1), InputError) << "no wave fits the grid";
 }
 
 }  // namespace rough_ground_test

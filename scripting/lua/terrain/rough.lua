@@ -23,6 +23,10 @@ return function(given)
     { "friction", 0.8, min = 0, max = 2, doc = "Coulomb coefficient against concrete." },
     { "look", "ground", doc = "Look of the surface, such as ground or concrete_cast." },
   })
+  if 2 * o.spacing >= o.longest then
+    rubble.reject("rubble.terrain.rough", "spacing", "less than half of `longest`, " .. o.longest / 2 .. " m: else no wave fits the grid", o.spacing)
+    o.longest = 4 * o.spacing
+  end
   -- One draw of the mission's seed; the numbers that follow from it are of Knuth's MMIX generator.
   local state = rubble.random("rubble.terrain.rough"):integer(1, 2147483647)
   local function draw()
@@ -30,7 +34,7 @@ return function(given)
     return (state >> 11) / 9007199254740992
   end
   -- Waves in all directions whose radial density is C / n^2 have the density 2 C / (pi n^2) along any line.
-  local low, high = 1 / o.longest, math.max(1 / (2 * o.spacing), 1.001 / o.longest)
+  local low, high = 1 / o.longest, 1 / (2 * o.spacing)
   local factor, octaves = math.pi / 2 * unevenness[o.class] * 0.01, math.log(high / low) / waves
   local list = {}
   for i = 1, waves do

@@ -325,7 +325,7 @@ void SimulationServer::set_entity_state(WireCursor& body, ros::Wire& reply) {
   if (asked.acceleration) return put(reply, Result{kUnsupported, "accelerations follow from forces"});
   if (!asked.state.frame.empty() && asked.state.frame != ros::kWorld)
     return put(reply, Result{kNotFound, "frame `" + asked.state.frame + "`: only `world`"});
-  if (asked.pose && !asked.state.valid_pose) return put(reply, Result{101, "no pose: the quaternion has not the length 1"});
+  if (asked.pose && !asked.state.valid_pose) return put(reply, Result{101, "no pose: expected finite numbers and a quaternion of length 1"});
   world_.set_state(*entity, {asked.state.pose, asked.state.linear, asked.state.angular}, asked.pose, asked.twist);
   put(reply, Result());
 }
@@ -361,7 +361,7 @@ Result SimulationServer::try_spawn(const SpawnRequest& asked, std::string& name)
   if (asked.uri.empty() && asked.resource_string.empty()) return {104, "no uri: get_spawnables lists bundled robots"};
   if (asked.uri.empty()) return {kUnsupported, "resource_string: give the uri of a file"};
   if (!asked.frame.empty() && asked.frame != ros::kWorld) return {109, "frame `" + asked.frame + "`: only `world`"};
-  if (!asked.valid_pose) return {109, "no pose: the quaternion has not the length 1"};
+  if (!asked.valid_pose) return {109, "no pose: expected finite numbers and a quaternion of length 1"};
   RobotItem item;
   try {
     if (asked.uri.rfind("rubble://", 0) == 0) {

@@ -43,7 +43,8 @@ struct Body {
   // A later place of it, for when it leaves the second pose; while rest is verified only.
   Pose later_pose;
   std::int32_t later_steps = 0;
-  float load = 0;  // sum of the contacts' impulses in the step when it fell asleep; unit: N s
+  // Sums over its contacts in the step when it fell asleep: normal impulses, and what friction may give. unit: N s
+  float load = 0, grip = 0;
   Vec3f lost_support;  // impulses of a step that contacts gave it then and that are gone; unit: N s
 
   bool awake = false;    // moves; never true for immovable pieces

@@ -185,7 +185,7 @@ void World::set_step(double step, int substeps) {
   }
   const float longer = float(step / w.settings.options.step);
   for (Body& body : w.data.bodies) {
-    body.load *= longer;
+    body.load *= longer, body.grip *= longer;
     body.lost_support *= longer;
   }
   for (Contact& contact : w.data.contacts) contact.rest_pressed *= longer;

@@ -33,7 +33,7 @@ void each_field(Struct& b, Visit&& visit) {
   visit(b.world_from_com), visit(b.linear), visit(b.angular), visit(b.rotation);
   visit(b.inverse_inertia), visit(b.travel), visit(b.still_pose), visit(b.still_steps);
   visit(b.loose_pose), visit(b.loose_steps);
-  visit(b.later_pose), visit(b.later_steps), visit(b.load), visit(b.lost_support);
+  visit(b.later_pose), visit(b.later_steps), visit(b.load), visit(b.grip), visit(b.lost_support);
   visit(b.awake), visit(b.lost), visit(b.touching), visit(b.has_touched);
 }
 

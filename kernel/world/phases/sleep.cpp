@@ -42,6 +42,9 @@ constexpr double kSleepOverlapTime = 2.0;  // time for which a deep overlap keep
 // A sleeping piece wakes at once if the impulse of a hit exceeds its mass times `hit_speed`, plus this share of
 // the impulse that it carries in a step. unit: 1
 constexpr float kHitLoad = 0.2F;
+// Or if what the hit gives along the ground exceeds all that friction can take up in a step, plus its mass times this
+// speed: little holds on ice. unit: m/s
+constexpr float kSlipSpeed = 0.0005F;
 
 // A sleeper wakes when a robot presses on it with this share of its weight; unit: 1.
 constexpr float kRobotTouch = 0.001F;
@@ -49,8 +52,11 @@ constexpr float kRobotTouch = 0.001F;
 constexpr int kPushedContacts = 3;
 
 const SleepTerms& terms(const WorldData& data) { return data.verification_steps < 0 ? kGrowing : kVerifying; }
-float hit_impulse(const Body& body, const SleepTerms& t) {
-  return t.hit_speed * float(body.mass) + kHitLoad * body.load;
+// normal: of the contact that hits, unit length.
+float hit_impulse(const Body& body, const SleepTerms& t, const Vec3f& normal) {
+  const float held = t.hit_speed * float(body.mass) + kHitLoad * body.load;
+  const float slips = body.grip + kSlipSpeed * float(body.mass), level2 = 1 - normal.z * normal.z;
+  return slips * slips < held * held * level2 ? slips / std::sqrt(level2) : held;
 }
 
 // How far any point of a body may have gone from `pose`; unit: m.
@@ -118,13 +124,14 @@ void Sleep::wake_hit(StepPairs& step) {
     const Body& sleeper = a.awake ? b : a;
     if (!sleeper.movable()) continue;
     const float inverse_masses = a.inverse_mass + b.inverse_mass;
+    const float least = inverse_masses * hit_impulse(sleeper, terms(data_), contact.normal);
     for (int i = 0; i < contact.count; ++i) {
       const ContactPoint& p = contact.points[i];
       const Vec3f v = b.linear + cross(b.angular, p.from_b) - a.linear - cross(a.angular, p.from_a);
       const float approach = -dot(contact.normal, v);
       if (p.separation - approach * settings_.solver.step > settings_.solver.rest_gap) continue;
       // The impulse of a central plastic impact.
-      if (approach < inverse_masses * hit_impulse(sleeper, terms(data_))) continue;
+      if (approach < least) continue;
       waking_.wake(a.awake ? contact.body_b : contact.body_a);
       any = true;
       break;
@@ -183,12 +190,13 @@ void Sleep::find_overlapping(const StepPairs& step) {
 // What the pieces that fell asleep in this step carry.
 void Sleep::note_loads(const StepPairs& step) {
   for (std::size_t i = 0; i < slept_.size(); ++i) {
-    if (slept_[i]) data_.bodies[i].load = 0;
+    if (slept_[i]) data_.bodies[i].load = data_.bodies[i].grip = 0;
   }
   each_solved(data_, step, [&](Contact& contact) {
     for (std::int32_t i : {contact.body_a, contact.body_b}) {
       if (i == kGround || !slept_[i]) continue;
       data_.bodies[i].load += contact.pressed;
+      data_.bodies[i].grip += contact.friction * contact.pressed;
       contact.rest_pressed = contact.pressed;
     }
   });

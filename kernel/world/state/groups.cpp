@@ -50,7 +50,7 @@ void RigidGroups::form(const SplitPart& part, const Body& whole) {
   body.free_index = free_index;
   body.travel = whole.travel;
   body.has_touched = whole.has_touched, body.touching = false;
-  body.load = 0, body.lost_support = {};
+  body.load = body.grip = 0, body.lost_support = {};
   body.radius = 0;
   for (const std::int32_t member : group.members) {
     const Body& piece = data_.bodies[member];

@@ -1,7 +1,6 @@
 // Before the sweeps of a step: which bodies move, which thread has them, who counts as heavier than it is,
 // and which contacts share a batch.
 #include <algorithm>
-#include <numeric>
 
 #include "kernel/solver/contact_solver.h"
 
@@ -31,7 +30,7 @@ void ContactSolver::note_heads(const std::vector<Body>& bodies,
   pool.run(int(order.size()), 128, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const Contact& contact = contacts[order[i]];
-      heads_[i] = {order[i], contact.body_a, contact.body_b, contact.count, contact.normal.z,
+      heads_[i] = {order[i], contact.body_a, contact.body_b, contact.count, contact.normal,
                    any_trees && (is_link(contact.body_a) || is_link(contact.body_b))};
     }
   });
@@ -115,23 +114,12 @@ void ContactSolver::note_places(const std::vector<Body>& bodies) {
 
 // Joins all that touches, by its lowest number; what does not move has the number behind the last.
 void ContactSolver::find_supported() {
-  touching_.resize(moving_.size() + 1);
-  std::iota(touching_.begin(), touching_.end(), 0);
-  const auto find = [this](std::int32_t i) {
-    while (touching_[i] != i) i = touching_[i] = touching_[touching_[i]];
-    return i;
-  };
-  for (const Head& head : heads_) {
-    const std::int32_t beyond = std::int32_t(moving_.size());
-    const std::int32_t a = find(number_[head.body_a]);
-    const std::int32_t b = find(head.body_b == kGround ? beyond : number_[head.body_b]);
-    touching_[std::max(a, b)] = std::min(a, b);
-  }
-  for (std::int32_t& i : touching_) i = find(i);
-}
-
-bool ContactSolver::is_supported(std::int32_t number) const {
-  return touching_[std::size_t(number)] == touching_[moving_.size()];
+  const std::int32_t beyond = std::int32_t(moving_.size());
+  touching_.reset(moving_.size() + 1);
+  for (const Head& head : heads_) touching_.join(number_[head.body_a], head.body_b == kGround ? beyond : number_[head.body_b]);
+  supported_.resize(moving_.size());
+  const std::int32_t ground = touching_.find(beyond);
+  for (std::int32_t i = 0; i < beyond; ++i) supported_[std::size_t(i)] = touching_.find(i) == ground;
 }
 
 // A light piece under a heavy one carries a load of many times its weight, which the sweeps reach
@@ -139,26 +127,39 @@ bool ContactSolver::is_supported(std::int32_t number) const {
 // inertia (not its weight) counts as at least 1/kMassRatio of what lies on it: loads at rest stay
 // exact, and momentum that goes into the light piece is lost, never gained. What nothing holds up from
 // below carries nothing, nor does what is in the air with all that it touches: momentum is kept there.
+// So does a light piece between a heavy one and what does not move, whichever way it is pressed.
 void ContactSolver::share_inertia(const std::vector<Body>& bodies) {
   find_supported();
   share_.assign(moving_.size() + 1, 1.0F);
   held_.assign(moving_.size() + 1, 0);
+  backed_.assign(moving_.size() + 1, {});
+  const auto moves = [&](std::int32_t body) { return body != kGround && bodies[body].movable(); };
   for (const Head& head : heads_) {
-    if (head.up < -kAbove) held_[number_[head.body_a]] = 1;
-    if (head.body_b != kGround && head.up > kAbove) held_[number_[head.body_b]] = 1;
+    const std::int32_t a = number_[head.body_a];
+    const std::int32_t b = head.body_b == kGround ? std::int32_t(moving_.size()) : number_[head.body_b];
+    if (head.normal.z < -kAbove) held_[a] = 1;
+    if (head.normal.z > kAbove) held_[b] = 1;
+    if (!moves(head.body_b)) backed_[a] += head.normal;
+    if (!moves(head.body_a)) backed_[b] -= head.normal;
   }
-  const auto carry = [&](std::int32_t light, std::int32_t heavy, float up) {
-    if (up < kAbove || number_[light] == std::int32_t(moving_.size())) return;
+  // press: the way in which the heavy one presses, unit length.
+  const auto carry = [&](std::int32_t light, std::int32_t heavy, const Vec3f& press) {
+    const std::int32_t number = number_[light];
+    if (number == std::int32_t(moving_.size())) return;
     const Body &l = bodies[light], &h = bodies[heavy];
-    if (held_[number_[light]] == 0 || !is_supported(number_[light]) || !h.awake) return;
-    if (dot(l.linear, l.linear) > kCarrySpeed * kCarrySpeed) return;
+    const bool carries = press.z < -kAbove && held_[number] != 0 && is_supported(number);
+    const bool is_backed = dot(backed_[number], press) > kAbove;
+    if (!h.awake || (!carries && !is_backed)) return;
+    // What is pressed against what does not move goes nowhere, however fast it was pushed.
+    const float towards = is_backed ? std::max(0.0F, dot(l.linear, press)) : 0;
+    if (dot(l.linear, l.linear) - towards * towards > kCarrySpeed * kCarrySpeed) return;
     const float share = float(kMassRatio * l.mass / h.mass);
-    share_[number_[light]] = std::min(share_[number_[light]], share);
+    share_[number] = std::min(share_[number], share);
   };
   for (const Head& head : heads_) {
     if (head.body_b == kGround) continue;
-    carry(head.body_a, head.body_b, head.up);
-    carry(head.body_b, head.body_a, -head.up);
+    carry(head.body_a, head.body_b, -head.normal);
+    carry(head.body_b, head.body_a, head.normal);
   }
 }
 

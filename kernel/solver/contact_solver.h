@@ -10,6 +10,7 @@
 
 #include <vector>
 
+#include "kernel/base/disjoint_sets.h"
 #include "kernel/base/parallel.h"
 #include "kernel/collision/body.h"
 #include "kernel/collision/contact.h"
@@ -67,7 +68,7 @@ class ContactSolver {
   // What planning asks of a contact, in the order of solving, close together in memory.
   struct Head {
     std::int32_t contact = 0, body_a = 0, body_b = 0, count = 0;
-    float up = 0;       // of the normal
+    Vec3f normal;       // from A to B
     bool tree = false;  // with an awake link of a tree
   };
 
@@ -85,7 +86,8 @@ class ContactSolver {
                   ThreadPool& pool);
   void number_bodies(const std::vector<Body>& bodies);
   void find_supported();
-  bool is_supported(std::int32_t number) const;  // something immovable is among what it touches
+  // Something immovable is among what it touches.
+  bool is_supported(std::int32_t number) const { return supported_[std::size_t(number)] != 0; }
   void share_inertia(const std::vector<Body>& bodies);
   int choose_domain_count(ThreadPool& pool);
   void divide(const std::vector<Body>& bodies);
@@ -112,8 +114,10 @@ class ContactSolver {
   TreeContacts tree_contacts_;
   std::vector<std::int32_t> moving_;   // awake free bodies with a contact, by domain
   std::vector<std::int32_t> number_;   // of each body in moving_; moving_.size(): does not move
-  std::vector<std::int32_t> touching_; // set of what touches, also through others; by moving body, then what stays
+  DisjointSets touching_;              // what touches; by moving body, then what stays
+  std::vector<std::uint8_t> supported_;  // by moving body
   std::vector<std::uint8_t> held_;     // something is below it; by moving body
+  std::vector<Vec3f> backed_;          // sum of the normals to what does not move; by moving body
   std::vector<float> share_;           // of true inertia in what the solver uses, by moving body
   const RowKernels& kernels_ = best_row_kernels();
   std::vector<BodyTerms> terms_;       // by moving body

@@ -86,8 +86,7 @@ TEST(ClosedFormImpact, ThreeHundredKilogramsDoNotPassThroughTwo) {
             world.piece(1).world_from_body.translation.x + 0.34);
 }
 
-// Not yet: see docs/development/performance.md, "Closed forms".
-TEST(ClosedFormImpact, DISABLED_ThreeHundredKilogramsStopAtTwoBeforeAWall) {
+TEST(ClosedFormImpact, ThreeHundredKilogramsStopAtTwoBeforeAWall) {
   World world({light_type(), heavy_type(), box_type("wall", 1, 4, 4)}, weightless_options());
   NewPiece heavy = at(1, {-1, 0, 5});
   heavy.linear_velocity = {8, 0, 0};
@@ -99,8 +98,7 @@ TEST(ClosedFormImpact, DISABLED_ThreeHundredKilogramsStopAtTwoBeforeAWall) {
   EXPECT_LT(world.piece(1).world_from_body.translation.x, -0.35 + 0.01);
 }
 
-// Not yet: see docs/development/performance.md, "Closed forms".
-TEST(ClosedFormImpact, DISABLED_ThreeHundredKilogramsFallOntoTwo) {
+TEST(ClosedFormImpact, ThreeHundredKilogramsFallOntoTwo) {
   World world({light_type(), heavy_type()});
   NewPiece heavy = at(1, {0, 0, 0.6});
   heavy.linear_velocity = {0, 0, -8};
@@ -221,8 +219,7 @@ Hits hit_sleeper(double mass, double speed, int count) {
   return hits;
 }
 
-// Not yet: see docs/development/performance.md, "Closed forms".
-TEST(ClosedFormImpact, DISABLED_ALightPieceThatHitsAHeavySleeperKeepsItsMomentum) {
+TEST(ClosedFormImpact, ALightPieceThatHitsAHeavySleeperKeepsItsMomentum) {
   for (const double mass : {0.5, 2.0, 10.0}) {
     for (const double speed : {2.0, 5.0}) {
       const Hits hits = hit_sleeper(mass, speed, 1);
@@ -258,8 +255,7 @@ TEST(ClosedFormImpact, ASleeperWithFrictionEndsWhereAnImpactBringsIt) {
   }
 }
 
-// Not yet: see docs/development/performance.md, "Closed forms".
-TEST(ClosedFormImpact, DISABLED_ManyLightPiecesMoveAHeavySleeper) {
+TEST(ClosedFormImpact, ManyLightPiecesMoveAHeavySleeper) {
   const Hits hits = hit_sleeper(2, 5, 8);
   EXPECT_NEAR(hits.after, hits.before, 0.02 * hits.before);
 }

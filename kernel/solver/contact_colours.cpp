@@ -1,7 +1,6 @@
 #include "kernel/solver/contact_colours.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace rubble {
@@ -20,15 +19,9 @@ void ContactColours::add(std::int32_t contact, std::int32_t a, std::int32_t b) {
   contacts_.push_back({contact, a, b, kUncoloured});
 }
 
-std::int32_t ContactColours::find(std::int32_t body) {
-  while (joined_[body] != body) body = joined_[body] = joined_[joined_[body]];
-  return body;
-}
-
 void ContactColours::find_islands() {
   const std::int32_t beyond = std::int32_t(had_.size()) - 1;
-  joined_.resize(had_.size());
-  std::iota(joined_.begin(), joined_.end(), 0);
+  joined_.reset(had_.size());
   height_.assign(had_.size(), 0);
   for (const Coloured& c : contacts_) {
     // What is met for the first time lies on the other, as contacts come bottom up.
@@ -36,13 +29,12 @@ void ContactColours::find_islands() {
       if (upper != beyond && height_[upper] == 0) height_[upper] = height_[lower] + 1;
     }
     if (c.a == beyond || c.b == beyond) continue;
-    const std::int32_t a = find(c.a), b = find(c.b);
-    joined_[std::max(a, b)] = std::min(a, b);
+    joined_.join(c.a, c.b);
   }
   islands_.assign(had_.size(), {});
-  for (const Coloured& c : contacts_) ++islands_[find(moving(c))].contacts;
+  for (const Coloured& c : contacts_) ++islands_[joined_.find(moving(c))].contacts;
   for (std::int32_t body = 0; body < beyond; ++body) {
-    Island& island = islands_[find(body)];
+    Island& island = islands_[joined_.find(body)];
     island.height = std::max(island.height, height_[body]);
   }
 }
@@ -56,7 +48,7 @@ const std::vector<std::int32_t>& ContactColours::finish() {
   find_islands();
   starts_.assign(1, 0);
   for (Coloured& c : contacts_) {
-    const Island& island = islands_[find(moving(c))];
+    const Island& island = islands_[joined_.find(moving(c))];
     if (island.contacts < kTowerWidth * island.height) {
       ++starts_[0];
       continue;

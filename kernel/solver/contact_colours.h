@@ -17,6 +17,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/base/disjoint_sets.h"
+
 namespace rubble {
 
 class ContactColours {
@@ -44,12 +46,11 @@ class ContactColours {
   };
 
   void find_islands();
-  std::int32_t find(std::int32_t body);
   std::int32_t moving(const Coloured& c) const { return std::size_t(c.a) + 1 < had_.size() ? c.a : c.b; }
   int choose(const Coloured& contact) const;
 
   std::vector<std::uint64_t> had_;     // colours of each body so far, by bit; what does not move has none
-  std::vector<std::int32_t> joined_;   // another body of the same island, or itself; by body
+  DisjointSets joined_;                // bodies of the same island
   std::vector<std::int32_t> height_;   // pieces from the ground up, each on the first that it touches; by body
   std::vector<Island> islands_;        // by body
   std::vector<Coloured> contacts_;     // bottom up

@@ -81,6 +81,26 @@ void ContactSolution::sort_by_height(StepPairs& step) {
   for (std::size_t i = 0; i < step.active.size(); ++i) step.active[i] = keys_[i].index;
 }
 
+// Contacts keep the impulses of a heap's substep, since an island may be part of a heap in the next step.
+void ContactSolution::solve_finer(int kind, const SolverSettings& settings, StepMotions& motions) {
+  const std::vector<std::int32_t>& order = islands_.contacts(kind);
+  if (order.empty()) return;
+  const int substeps = kIslandKinds[kind].substeps;
+  const auto scale = [&](float factor) {
+    for (const std::int32_t index : order) {
+      Contact& contact = data_.contacts[index];
+      for (int i = 0; i < contact.count; ++i) contact.points[i].normal_impulse *= factor;
+      contact.friction_impulse *= factor;
+      contact.twist_impulse *= factor;
+    }
+  };
+  SolverSettings finer = settings;
+  finer.substeps *= substeps;
+  scale(1 / float(substeps));
+  finer_solvers_[kind].solve(finer, data_.bodies, order, data_.contacts, motions.velocities, motions.displacements, {}, pool_);
+  scale(float(substeps));
+}
+
 void ContactSolution::run(StepPairs& step, WorldTrees& trees, Ties& ties, const SpeedLimiter& limits,
                           StepMotions& motions) {
   turn_freely(step, motions);
@@ -93,8 +113,10 @@ void ContactSolution::run(StepPairs& step, WorldTrees& trees, Ties& ties, const 
   SolverSettings settings = settings_.solver;
   settings.fading = motions.lateness;
   ties.begin(step, motions.velocities);
-  solver_.solve(settings, data_.bodies, step.active, data_.contacts, motions.velocities, motions.displacements,
-                trees.solved(), pool_);
+  const bool any = islands_.split(data_.bodies, data_.contacts, data_.pairs.size(), step.active);
+  for (int kind = 0; any && kind < kIslandKindCount; ++kind) solve_finer(kind, settings, motions);
+  solver_.solve(settings, data_.bodies, any ? islands_.contacts(IslandSubsteps::kHeap) : step.active, data_.contacts,
+                motions.velocities, motions.displacements, trees.solved(), pool_);
   ties.end(step);
 }
 

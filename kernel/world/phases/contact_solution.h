@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kernel/base/parallel.h"
+#include "kernel/solver/island_substeps.h"
 #include "kernel/world/phases/speed_limiter.h"
 #include "kernel/world/phases/ties.h"
 #include "kernel/world/phases/trees.h"
@@ -19,7 +20,10 @@ class ContactSolution {
   // motions: receives velocities, displacements and lateness.
   void run(StepPairs& step, WorldTrees& trees, Ties& ties, const SpeedLimiter& limits, StepMotions& motions);
   // Whether it moved a body otherwise than its weight does, impulses aside.
-  bool has_intervened(std::int32_t body) const { return solver_.has_intervened(body); }
+  bool has_intervened(std::int32_t body) const {
+    const int kind = islands_.kind_of(body);
+    return (kind == IslandSubsteps::kHeap ? solver_ : finer_solvers_[kind]).has_intervened(body);
+  }
   SweepFigures plan_sweeps(int threads) const { return solver_.plan_sweeps(threads, data_.bodies); }
 
  private:
@@ -35,12 +39,14 @@ class ContactSolution {
   void turn_freely(const StepPairs& step, StepMotions& motions);
   void sort_by_height(StepPairs& step);
   void sort_keys();
+  void solve_finer(int kind, const SolverSettings& settings, StepMotions& motions);
 
   WorldData& data_;
   const WorldSettings& settings_;
   const FreeBodies& blocks_;
   ThreadPool& pool_;
-  ContactSolver solver_;
+  IslandSubsteps islands_;
+  ContactSolver solver_, finer_solvers_[kIslandKindCount];
   std::vector<OrderKey> keys_, scratch_;
 };
 

@@ -62,33 +62,36 @@ def quaternion(m):
     return vectors[:, values.argmax()]
 
 
-IDLE = 0.02       # time for which the other threads do next to nothing before the next picture comes; unit: s
-NEXT_TO = 0.05    # ... as a share of this time
-LONGEST = 20.0    # wait; unit: s
+POLL = 0.005          # between two looks at the other threads; unit: s
+POLLS = 4             # of theirs without work after which they count as idle: they look for work every 3 to 5 ms
+LOOK = 1e-4           # processor time of such a poll, at most; unit: s
+LONGEST = 20.0        # wait; unit: s
 
 
-def busy():
-    """Processor time of the other threads in seconds, and whether one of them runs or waits for a processor."""
-    used, runs = 0.0, False
+def used_by_others():
+    """Processor time of the other threads in seconds, and how often they got a processor. A thread that finds no work sleeps again at
+    once, however busy the machine is; one that works keeps its processor."""
+    used = times = 0
     for task in pathlib.Path("/proc/self/task").iterdir():
-        if int(task.name) == threading.get_native_id():
-            continue
-        try:
-            used += int((task / "schedstat").read_text().split()[0]) * 1e-9
-            runs |= (task / "stat").read_text().rsplit(")", 1)[1].split()[0] == "R"
-        except OSError:  # it has just ended
-            pass
-    return used, runs
+        if int(task.name) != threading.get_native_id():
+            try:
+                words = (task / "schedstat").read_text().split()
+            except OSError:  # it has just ended
+                continue
+            used, times = used + int(words[0]) * 1e-9, times + int(words[2])
+    return used, times
 
 
 def wait_for_mapping():
-    end = time.monotonic() + LONGEST
-    used, runs = busy()
+    end, (used, times) = time.monotonic() + LONGEST, used_by_others()
     while time.monotonic() < end:
-        time.sleep(IDLE)
-        before, (used, runs) = used, busy()
-        if not runs and used - before < NEXT_TO * IDLE:
+        time.sleep(POLL)
+        now, turns = used_by_others()
+        if turns - times < POLLS and now - used < POLLS * LOOK:
+            continue  # too little has been seen
+        if now - used < LOOK * (turns - times):
             return
+        used, times = now, turns
 
 
 def main():

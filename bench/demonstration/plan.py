@@ -39,6 +39,7 @@ ROWS = [
     row("dust", "air", "dust that the robot raises", *BASE, "air.dust.period=0.5", "air.dust.density=2"),
     row("wet", "air", "wet surfaces", *BASE, "wetness=0.8"),
     row("bare", "air", "no fines", *BASE, "fines.amount=0"),
+    row("street", "place", "outside, in a street", "flight=outside", "surroundings.type=street", "surroundings.clearance=6"),
     row("crawler", "motion", "moved as a crawler", *BASE, carrier="crawler"),
     row("snake", "motion", "moved as a snake", *BASE, carrier="snake"),
     row("vine", "motion", "moved as a vine", *BASE, carrier="vine"),

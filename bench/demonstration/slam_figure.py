@@ -35,11 +35,11 @@ def draw(found, mapped, path):
     figure, axes = plt.subplots(len(chosen), 1, figsize=(10, 3.1 * len(chosen) + 1), sharex=True, squeeze=False)
     lines = {}
     for (name, title), place in zip(chosen, axes[:, 0]):
-        for number, judge in enumerate(slam_plan.JUDGES):
+        for judge in slam_plan.JUDGES:
             results = found.get((name, judge.name))
             if results:
                 x, y = binned(*joined(results))
-                lines[judge.title], = place.plot(x, y, "o-" if judge.kind == "camera" else "s--", color=COLOURS[judge.name], ms=4, lw=1.6)
+                lines[judge.title], = place.plot(x, y, "s--" if judge.kind == "lidar" else "o-", color=COLOURS[judge.name], ms=4, lw=1.6)
         frames = [f for r in mapped.get((name, "colmap"), {}).values() for f in r["frames"]]
         if frames:
             x, y = binned([f["into"] for f in frames], [f["model"] is not None for f in frames])

@@ -20,9 +20,17 @@ PICTURES = stages.ROOT / "docs" / "pictures" / "gallery"  # of which the vocabul
 # What is changed besides the defaults, which are those of a car in a street: KISS-ICP's voxels are a hundredth of the range, and
 # RKO-LIO leaves out what is nearer than 1 m.
 LIDAR_SETTINGS = {"kiss_icp_near": {"data": {"max_range": 20}}, "rko_lio_near": {"min_range": 0.3, "voxel_size": 0.2}}
+ICP = ["{system}_pipeline", "{dataset}/mission.bag", "--topic", "/points", "--config", "{folder}/config.yaml"]
+COMMANDS = {
+    "kiss_icp": ICP, "genz_icp": ICP,
+    "rko_lio": ["rko_lio", "{dataset}", "--config", "{folder}/config.yaml", "--dataloader", "rosbag", "--imu", "/imu", "--lidar", "/points",
+                "--base_frame", "camera_link", "--log", "--log_dir", "{folder}/results"],
+}
+BASES = {"kiss_icp": slam_plan.LIDAR_IN_BODY, "genz_icp": slam_plan.LIDAR_IN_BODY, "rko_lio": (0, 0, 0)}  # in the body; unit: m
 SCAN = 0.1  # time of a scan; unit: s
-# Of the stamp of a scan, which is that of its first ray, to the time that a pose of the system is for; unit: s
-POSE_AFTER = {"kiss_icp": SCAN, "genz_icp": 0.0, "rko_lio": 0.0}
+# From the stamp of a pose to the time that it is for: KISS-ICP corrects a scan to its end and gives the stamp of its first ray; GenZ-ICP
+# corrects nothing; RKO-LIO gives that of the end. unit: s
+POSE_AFTER = {"kiss_icp": SCAN, "genz_icp": SCAN / 2, "rko_lio": 0.0}
 CRASHED = (134, 136, 139, -6, -8, -11)
 
 
@@ -34,6 +42,19 @@ def run_in(python, arguments, log, limit, extra=None):
                                   env=dict(os.environ, OMP_NUM_THREADS="2", **(extra or {}))).returncode
         except subprocess.TimeoutExpired:
             return None
+
+
+def system_of(judge):
+    return "_".join(judge.name.split("_")[:2])
+
+
+def found_poses(folder):
+    return sorted((folder / "results").glob("**/*_tum.txt"))
+
+
+def read_stamps(dataset):
+    """Of all pictures, as texts."""
+    return [line.split()[0] for line in (dataset / "groundtruth.txt").read_text().splitlines() if line[0] != "#"]
 
 
 def fail(command, code, log):
@@ -79,27 +100,32 @@ class SlamJudges:
             [self.python(), script, folder / "orb.txt", *pictures], folder / "log.txt"), "of %d pictures" % len(pictures)) / "orb.txt"
 
     def depends(self, dataset_key, judge, number):
-        own = ["slam_judges.py", "slam_score.py"] + ["judge_orbslam3.py", "orb_vocabulary.py"] * judge.name.startswith("orbslam3")
-        return {"dataset": dataset_key, "judge": judge.name, "run": number, "scaled": judge.scaled, "packages": REQUIREMENTS.read_text(),
-                "scripts": [stages.digest_file(HERE / name) for name in own]}
+        depends = {"dataset": dataset_key, "judge": judge.name, "run": number, "packages": REQUIREMENTS.read_text()}
+        if judge.kind == "lidar":
+            return dict(depends, command=COMMANDS[system_of(judge)], settings=LIDAR_SETTINGS.get(judge.name, {}))
+        return dict(depends, scripts=[stages.digest_file(HERE / name) for name in ("judge_orbslam3.py", "orb_vocabulary.py")])
+
+    def depends_score(self, dataset_key, judge, number):
+        return {"run": self.depends(dataset_key, judge, number), "scaled": judge.scaled, "base": BASES.get(system_of(judge)),
+                "after": POSE_AFTER.get(system_of(judge)), "score": stages.digest_file(HERE / "slam_score.py")}
 
     def find(self, dataset_key, judge, number):
         """The result, where it is there already; else None."""
-        key = stages.digest("slam", self.depends(dataset_key, judge, number))
-        path = self.work.out / "slam" / key / "result.json"
+        path = self.work.out / "slam_score" / stages.digest("slam_score", self.depends_score(dataset_key, judge, number)) / "result.json"
         return json.loads(path.read_text()) if path.exists() else None
+
+    def ran(self, dataset_key, judge, number):
+        """Whether the system has seen the recording already."""
+        return (self.work.out / "slam" / stages.digest("slam", self.depends(dataset_key, judge, number)) / "done.json").exists()
 
     def judge(self, seed, row, dataset, judge, number, deepest):
         """deepest: as of matches.measure()."""
-        def make(folder):
-            if judge.kind == "camera":
-                note = self.orbslam3(folder, dataset, judge.name)
-            else:
-                note = self.lidar(folder, dataset, judge.name)
-            self.score(folder, dataset, judge, deepest, note)
-
         what = "seed %d, %s, %s, run %d" % (seed, row.name, judge.name, number)
-        folder = self.work.stage("slam", self.depends(dataset.parent.name, judge, number), make, what)
+        key = dataset.parent.name
+        run = self.work.stage("slam", self.depends(key, judge, number), lambda folder: (
+            self.lidar if judge.kind == "lidar" else self.orbslam3)(folder, dataset, judge), what)
+        folder = self.work.stage("slam_score", self.depends_score(key, judge, number),
+                                 lambda folder: self.score(folder, run, dataset, judge, deepest), what)
         return json.loads((folder / "result.json").read_text())
 
     def settings(self, dataset):
@@ -108,46 +134,40 @@ class SlamJudges:
             self.work.run([self.work.program, "pack", dataset, "--settings"], dataset.parent / "pack.txt")
         return path
 
-    def orbslam3(self, folder, dataset, name):
-        out, stamps = folder / "estimate.csv", [line.split()[0] for line in (dataset / "groundtruth.txt").read_text().splitlines() if line[0] != "#"]
+    def orbslam3(self, folder, dataset, judge):
+        out, stamps = folder / "estimate.csv", read_stamps(dataset)
         code = run_in(self.python(), [HERE / "judge_orbslam3.py", dataset, self.settings(dataset), self.vocabulary(),
-                                      name.split("_", 1)[1], out], folder / "log.txt", 600)
+                                      judge.name.split("_", 1)[1], out], folder / "log.txt", 1800)
         if code not in (0, None, *CRASHED):
             fail("judge_orbslam3.py", code, folder / "log.txt")
-        if code == 0:
-            return ""
-        # What it did not live to see has no pose.
-        seen = out.read_text().splitlines() if out.exists() else []
-        out.write_text("".join(line + "\n" for line in seen + ["%s,,,,,,,," % s for s in stamps[len(seen):]]))
-        return "ended at picture %d (%s)" % (len(seen), "no answer" if code is None else "signal %d" % abs(code))
+        note = ""
+        if code != 0:  # what it did not live to see has no pose
+            seen = out.read_text().splitlines() if out.exists() else []
+            out.write_text("".join(line + "\n" for line in seen + ["%s,,,,,,,," % s for s in stamps[len(seen):]]))
+            note = "ended at picture %d (%s)" % (len(seen), "no answer" if code is None else "signal %d" % abs(code))
+        (folder / "note.txt").write_text(note)
 
-    def lidar(self, folder, dataset, name):
-        python, system, log = self.python(), "_".join(name.split("_")[:2]), folder / "log.txt"
-        config = folder / "config.yaml"
-        config.write_text(json.dumps(LIDAR_SETTINGS.get(name, {})))  # JSON is YAML
-        if system == "rko_lio":
-            words = [python.parent / "rko_lio", dataset, "--config", config, "--dataloader", "rosbag", "--imu", "/imu", "--lidar", "/points",
-                     "--base_frame", "camera_link", "--log", "--log_dir", folder / "results"]
-            offset = (0, 0, 0)
-        else:
-            words = [python.parent / (system + "_pipeline"), dataset / "mission.bag", "--topic", "/points", "--config", config]
-            offset = slam_plan.LIDAR_IN_BODY
-        code = run_in(python, words, log, 1200, {system + "_out_dir": str(folder / "results")})
-        found = sorted((folder / "results").glob("**/*_tum.txt"))
-        if code != 0 or not found:
+    def lidar(self, folder, dataset, judge):
+        system, log = system_of(judge), folder / "log.txt"
+        (folder / "config.yaml").write_text(json.dumps(LIDAR_SETTINGS.get(judge.name, {})))  # JSON is YAML
+        program, *words = [word.format(system=system, dataset=dataset, folder=folder) for word in COMMANDS[system]]
+        python = self.python()
+        code = run_in(python, [python.parent / program, *words], log, 1800, {system + "_out_dir": str(folder / "results")})
+        if code != 0 or not found_poses(folder):
             fail(system, code, log)
-        rows = np.atleast_2d(np.loadtxt(found[0]))
-        rows[:, 0] += POSE_AFTER[system]
-        write_estimate(folder / "estimate.csv", optical_rows(rows, offset))
-        return ""
+        (folder / "note.txt").write_text("")
 
-    def score(self, folder, dataset, judge, deepest, note):
-        estimate = slam_score.read_estimate(folder / "estimate.csv")
+    def score(self, folder, run, dataset, judge, deepest):
+        if judge.kind == "lidar":
+            rows = np.atleast_2d(np.loadtxt(found_poses(run)[0]))
+            rows[:, 0] += POSE_AFTER[system_of(judge)]
+            write_estimate(folder / "estimate.csv", optical_rows(rows, BASES[system_of(judge)]))
+        estimate = slam_score.read_estimate((folder if judge.kind == "lidar" else run) / "estimate.csv")
         truth = slam_score.true_poses(dataset / "groundtruth.txt", estimate[0])
         measured = slam_score.measure(estimate, truth, judge.scaled)
         into = carriers.metres_into(truth[0], deepest) if deepest is not None else None
         result = slam_score.summary(estimate, measured, into)
-        result.update(self.evo(folder, estimate, truth, judge.scaled), note=note)
+        result.update(self.evo(folder, estimate, truth, judge.scaled), note=(run / "note.txt").read_text())
         frames = {"into": None if into is None else [round(float(v), 3) for v in into], **measured}
         (folder / "result.json").write_text(json.dumps({"summary": result, "frames": frames}))
 

@@ -6,8 +6,7 @@ import numpy as np
 import carriers
 
 WINDOW = 0.5          # of the true way, over which motions are compared; unit: m
-TOLERANCE = 0.2       # error of a motion that still counts as followed, as a share of its length
-LEAST = 0.02          # ... and never less than this; unit: m
+TOLERANCE = 0.1       # error of such a motion that still counts as followed; unit: m
 ON_TRACK = 0.1        # as of `rubble eval sfm`; unit: m
 LOST_FOR = 0.5        # time without a followed motion after which the way counts as lost; unit: s
 
@@ -70,7 +69,7 @@ def measure(estimate, truth, scaled):
                 continue
             found = scale * rotations[base].T @ (positions[i] - positions[base])
             right = true_rotations[base].T @ (true_positions[i] - true_positions[base])
-            followed[i] = np.linalg.norm(found - right) <= max(LEAST, TOLERANCE * (way[i] - way[base]))
+            followed[i] = np.linalg.norm(found - right) <= TOLERANCE
     return {"map": [int(m) for m in maps], "followed": [bool(f) for f in followed], "error": errors, "way": [float(w) for w in way]}
 
 

@@ -12,7 +12,7 @@ import document_marks  # noqa: E402
 
 PAGE = stages.ROOT / "docs/explanation/slam_judges.md"
 FIGURE = stages.ROOT / "docs/pictures/slam_judges.png"
-TITLES = {"exterior": "outside, by day", "dark": "void, no lamp, day outside", "night_15": "void, night, lamp of 15 cd",
+TITLES = {"exterior": "outside, by day", "street": "outside, in a street", "dark": "void, no lamp, day outside", "night_15": "void, night, lamp of 15 cd",
           "night_200": "void, night, lamp of 200 cd", "smoke": "void, smoke of 0.3 / m"}
 SEEDS = range(1, 6)
 HEADINGS = ["flight", "judge", "seeds", "runs", "pictures or scans", "with a pose, %", "motion followed, %", "on track, %", "maps", "ATE, m",
@@ -23,7 +23,7 @@ def collect(work):
     """{(flight, judge): {(seed, run): result}}"""
     judging, found = slam_judges.SlamJudges(work), {}
     for seed, row, kind, judges in slam_plan.order(SEEDS, [], []):
-        key = flights.Flights(work, slam_plan.RECORDINGS[kind]).key(seed, row)
+        key = flights.Flights(work, slam_plan.KINDS[kind].recording).key(seed, row)
         for judge in judges:
             for number in range(judge.runs):
                 result = judging.find(key, judge, number)

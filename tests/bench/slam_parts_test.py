@@ -111,8 +111,8 @@ def check_files():
 
 def check_plan_and_table():
     flights = {row.name for row in plan.ROWS}
-    for kind, names in slam_plan.FLIGHTS.items():
-        assert kind in slam_plan.RECORDINGS and set(names) <= flights and set(names) <= set(slam_tables.TITLES)
+    for kind in slam_plan.KINDS.values():
+        assert set(kind.flights) <= flights and set(kind.flights) <= set(slam_tables.TITLES) and kind.recording.heavy
     assert len({j.name for j in slam_plan.JUDGES}) == len(slam_plan.JUDGES)
     order = slam_plan.order([1, 2], [], [])
     assert [seed for seed, *_ in order] == sorted(seed for seed, *_ in order)

@@ -9,47 +9,66 @@ import matplotlib.pyplot as plt  # noqa: E402  (after the choice of the backend)
 
 PANELS = [("dark", "no lamp, day outside"), ("night_15", "night, lamp of 15 cd"), ("night_200", "night, lamp of 200 cd"),
           ("smoke", "smoke of 0.3 / m")]
-COLOURS = {"orbslam3_rgbd": "#1b6ca8", "orbslam3_monocular": "#74b3e0", "orbslam3_stereo": "#0b3c5d", "orbslam3_rgbd_inertial": "#2a9d8f",
-           "orbslam3_stereo_inertial": "#1f6f54", "orbslam3_monocular_inertial": "#8fd3a8", "kiss_icp": "#f4a261", "kiss_icp_near": "#e76f51",
-           "genz_icp": "#b5179e", "rko_lio": "#bdbd2b", "rko_lio_near": "#7a5c00"}
+COLOURS = {"orbslam3_rgbd": "#1b6ca8", "orbslam3_monocular": "#74b3e0", "orbslam3_rgbd_inertial": "#2a9d8f",
+           "orbslam3_monocular_inertial": "#8fd3a8", "orbslam3_stereo": "#0b3c5d", "orbslam3_stereo_inertial": "#1f6f54",
+           "kiss_icp": "#f4a261", "kiss_icp_near": "#e76f51", "genz_icp": "#b5179e", "rko_lio": "#bdbd2b", "rko_lio_near": "#7a5c00"}
 WIDTH = 1.0  # of a bin; unit: m
 
 
-def binned(into, values):
-    """Centres of bins, and the share of the values that are true in each."""
-    into, values = np.asarray(into), np.asarray(values, float)
-    numbers = np.floor(into / WIDTH).astype(int)
-    chosen = sorted(set(numbers))
-    return [(n + 0.5) * WIDTH for n in chosen], [100 * values[numbers == n].mean() for n in chosen]
+def legs(into):
+    """Of each picture of one flight: False on the way in, True on the way out."""
+    return np.arange(len(into)) > np.argmax(into)
 
 
-def joined(results):
-    """Of all seeds and runs."""
-    into = [v for r in results.values() for v in r["frames"]["into"]]
-    return into, [f for r in results.values() for f in r["frames"]["followed"]]
+def binned(into, back, values, deepest):
+    """Places along the way in and out again, where a bin on the way out is mirrored behind `deepest`, and the share of the values that
+    are true in each bin."""
+    into, back, values = np.asarray(into), np.asarray(back), np.asarray(values, float)
+    numbers, places, shares = np.floor(into / WIDTH).astype(int), [], []
+    for leg in (False, True):
+        for n in sorted(set(numbers[back == leg]), reverse=leg):
+            middle = (n + 0.5) * WIDTH
+            places.append(2 * deepest - middle if leg else middle)
+            shares.append(100 * values[(back == leg) & (numbers == n)].mean())
+    return places, shares
+
+
+def joined(flights):
+    """flights: pairs of metres into the void and values. All of them, with their legs."""
+    into = np.concatenate([np.asarray(i) for i, _ in flights])
+    return into, np.concatenate([legs(i) for i, _ in flights]), np.concatenate([np.asarray(v, float) for _, v in flights])
 
 
 def draw(found, mapped, path):
     """mapped: tables.collect(), whose COLMAP is drawn beside the SLAM systems: frames that a model has."""
     chosen = [(name, title) for name, title in PANELS if any(flight == name for flight, _ in found)]
     figure, axes = plt.subplots(len(chosen), 1, figsize=(10, 3.1 * len(chosen) + 1), sharex=True, squeeze=False)
+    curves = {}  # by panel: (legend, style, flights)
+    for name, _ in chosen:
+        curves[name] = [(judge.title, dict(fmt="s--" if judge.kind == "lidar" else "o-", color=COLOURS[judge.name]),
+                         [(r["frames"]["into"], r["frames"]["followed"]) for r in found[name, judge.name].values()])
+                        for judge in slam_plan.JUDGES if (name, judge.name) in found]
+        models = [r["frames"] for r in mapped.get((name, "colmap"), {}).values()]
+        if models:
+            curves[name].append(("COLMAP 3.8: a model has it", dict(fmt="x:", color="#555555"),
+                                 [([f["into"] for f in frames], [f["model"] is not None for f in frames]) for frames in models]))
+    deepest = np.ceil(max(max(into) for drawn in curves.values() for _, _, flights in drawn for into, _ in flights) / WIDTH) * WIDTH
     lines = {}
     for (name, title), place in zip(chosen, axes[:, 0]):
-        for judge in slam_plan.JUDGES:
-            results = found.get((name, judge.name))
-            if results:
-                x, y = binned(*joined(results))
-                lines[judge.title], = place.plot(x, y, "s--" if judge.kind == "lidar" else "o-", color=COLOURS[judge.name], ms=4, lw=1.6)
-        frames = [f for r in mapped.get((name, "colmap"), {}).values() for f in r["frames"]]
-        if frames:
-            x, y = binned([f["into"] for f in frames], [f["model"] is not None for f in frames])
-            lines["COLMAP 3.8: a model has it"], = place.plot(x, y, "x:", color="#555555", ms=5, lw=1.4)
+        for label, style, flights in curves[name]:
+            x, y = binned(*joined(flights), deepest)
+            lines[label], = place.plot(x, y, style["fmt"], color=style["color"], ms=4, lw=1.5)
         place.set_title(title, fontsize=10, loc="left")
         place.set_ylabel("motion followed, %")
         place.set_ylim(-4, 104)
-        place.axvline(0, color="#999999", lw=1)
+        for border in (0, 2 * deepest):
+            place.axvline(border, color="#999999", lw=1)
+        place.axvline(deepest, color="#999999", lw=1, ls=":")
         place.grid(alpha=0.3)
-    axes[-1, 0].set_xlabel("metres into the void (0: its entrance), on the way in and on the way out")
+    ticks = np.arange(-2, deepest + 0.1, 2)
+    axes[-1, 0].set_xticks(list(ticks) + [2 * deepest - t for t in ticks if t < deepest])
+    axes[-1, 0].set_xticklabels(["%g" % t for t in ticks] + ["%g" % t for t in ticks if t < deepest])
+    axes[-1, 0].set_xlabel("metres into the void: way in, the deepest place, and way out (0: the entrance)")
     figure.legend(lines.values(), lines.keys(), loc="lower center", ncol=3, fontsize=9)
     figure.tight_layout(rect=(0, 0.02 + 0.16 / len(chosen), 1, 1))
     figure.savefig(path, dpi=90)

@@ -12,11 +12,11 @@ import document_marks  # noqa: E402
 
 PAGE = stages.ROOT / "docs/explanation/slam_judges.md"
 FIGURE = stages.ROOT / "docs/pictures/slam_judges.png"
-TITLES = {"exterior": "outside, by day", "street": "outside, in a street", "dark": "void, no lamp, day outside", "night_15": "void, night, lamp of 15 cd",
-          "night_200": "void, night, lamp of 200 cd", "smoke": "void, smoke of 0.3 / m"}
+TITLES = {"exterior": "outside, by day", "street": "outside, in a street", "dark": "void, no lamp, day outside",
+          "night_15": "void, night, lamp of 15 cd", "night_200": "void, night, lamp of 200 cd", "smoke": "void, smoke of 0.3 / m"}
 SEEDS = range(1, 6)
-HEADINGS = ["flight", "judge", "seeds", "runs", "pictures or scans", "with a pose, %", "motion followed, %", "on track, %", "maps", "ATE, m",
-            "lost", "where, m into the void"]
+HEADINGS = ["flight", "judge", "seeds", "runs", "pictures or scans", "with a pose, %", "motion followed, %", "on track, %", "maps",
+            "ATE, m", "first lost", "where, m into the void"]
 
 
 def collect(work):

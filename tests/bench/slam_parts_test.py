@@ -74,7 +74,8 @@ def check_maps():
     assert abs(found["lost_into_m"] - into[120]) < 1e-9
     assert measured["error"][130] is None and not measured["followed"][130]
     # Nothing found at all, and a pause that is too short to count.
-    nothing = slam_score.summary((stamps, maps * 0 - 1, p, r), slam_score.measure((stamps, maps * 0 - 1, p, r), (positions, rotations), False), into)
+    estimate = stamps, maps * 0 - 1, p, r
+    nothing = slam_score.summary(estimate, slam_score.measure(estimate, (positions, rotations), False), into)
     assert nothing["pose_percent"] == 0 and nothing["maps"] == 0 and nothing["lost_after_m"] is None
     assert slam_score.first_lost(stamps, [True] * 100 + [False] * 7 + [True] * 193) is None
     assert slam_score.first_lost(stamps, [False] * 50 + [True] * 50 + [False] * 200) == 100
@@ -100,7 +101,7 @@ def check_files():
         p, r = slam_score.true_poses(folder / "true.txt", between)
         assert abs(p - (positions[1:] + positions[:-1]) / 2).max() < 1e-8
         assert abs(np.linalg.det(r) - 1).max() < 1e-9
-    text = "APE w.r.t. translation part (m)\n(with SE(3) Umeyama alignment)\n\n       max\t0.2\n      mean\t0.1\n      rmse\t0.054321\n       std\t0.1\n"
+    text = "APE w.r.t. translation part (m)\n(with SE(3) Umeyama alignment)\n\n       max\t0.2\n      rmse\t0.054321\n       std\t0.1\n"
     assert slam_judges.read_ape(text) == 0.054321
     try:
         slam_judges.read_ape("no such file")
@@ -117,13 +118,25 @@ def check_plan_and_table():
     order = slam_plan.order([1, 2], [], [])
     assert [seed for seed, *_ in order] == sorted(seed for seed, *_ in order)
     assert {j.name for _, _, _, judges in order for j in judges} == {j.name for j in slam_plan.JUDGES}
-    assert slam_plan.order([1], ["smoke"], ["kiss_icp"])[0][3][0].name == "kiss_icp" and not slam_plan.order([1], ["smoke"], ["orbslam3_rgbd"])
+    assert slam_plan.order([1], ["smoke"], ["kiss_icp"])[0][3][0].name == "kiss_icp"
+    assert not slam_plan.order([1], ["smoke"], ["orbslam3_rgbd"])
     base = {"frames": 100, "maps": 1, "on_track_percent": 50.0, "followed_percent": 60.0, "ate_rmse_m": 0.1, "note": ""}
     runs = [dict(base, pose_percent=p, lost_after_m=a, lost_into_m=i, lost_going=g)
             for p, a, i, g in ((70, 6.0, 4.0, "in"), (80, 8.0, 6.0, "in"), (90, 14.0, 5.0, "out"), (100, None, None, None))]
     cells = slam_tables.cells({(1 + n // 2, n % 2): {"summary": s} for n, s in enumerate(runs)})
-    assert cells == ["1, 2", "4", "100 (100 to 100)", "85 (70 to 100)", "60 (60 to 60)", "50 (50 to 50)", "1.0 (1.0 to 1.0)", "0.10 (0.10 to 0.10)",
-                     "3 of 4", "5.0 (4.0 to 6.0), way in (2); 5.0, way out (1)"], cells
+    assert cells == ["1, 2", "4", "100 (100 to 100)", "85 (70 to 100)", "60 (60 to 60)", "50 (50 to 50)", "1.0 (1.0 to 1.0)",
+                     "0.10 (0.10 to 0.10)", "3 of 4", "5.0 (4.0 to 6.0), way in (2); 5.0, way out (1)"], cells
+
+
+def check_figure():
+    """A flight of which the way in was followed and the way out was not: the second half is mirrored behind the deepest place."""
+    try:
+        import slam_figure
+    except ImportError:  # matplotlib is a package of `make slam-judges` alone
+        return
+    into = [-0.5, 0.5, 1.5, 2.5, 1.4, 0.4, -0.6]
+    places, shares = slam_figure.binned(*slam_figure.joined([(into, [1, 1, 1, 1, 0, 0, 0])]), 3.0)
+    assert places == [-0.5, 0.5, 1.5, 2.5, 4.5, 5.5, 6.5] and shares == [100] * 4 + [0] * 3, (places, shares)
 
 
 def check_no_index():
@@ -156,4 +169,5 @@ if __name__ == "__main__":
     check_maps()
     check_files()
     check_plan_and_table()
+    check_figure()
     check_no_index()

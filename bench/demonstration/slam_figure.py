@@ -1,11 +1,7 @@
 """The share of pictures or scans whose motion a system followed, against metres into the void."""
-import matplotlib
 import numpy as np
 
 import slam_plan
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  (after the choice of the backend)
 
 PANELS = [("dark", "no lamp, day outside"), ("night_15", "night, lamp of 15 cd"), ("night_200", "night, lamp of 200 cd"),
           ("smoke", "smoke of 0.3 / m")]
@@ -41,6 +37,9 @@ def joined(flights):
 
 def draw(found, mapped, path):
     """mapped: tables.collect(), whose COLMAP is drawn beside the SLAM systems: frames that a model has."""
+    import matplotlib  # here: the tests of the parts above need it not
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
     chosen = [(name, title) for name, title in PANELS if any(flight == name for flight, _ in found)]
     figure, axes = plt.subplots(len(chosen), 1, figsize=(10, 3.1 * len(chosen) + 1), sharex=True, squeeze=False)
     curves = {}  # by panel: (legend, style, flights)

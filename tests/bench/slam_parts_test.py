@@ -12,6 +12,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent.parent / "
 import carriers  # noqa: E402
 import environments  # noqa: E402
 import plan  # noqa: E402
+import slam_figure  # noqa: E402
 import slam_judges  # noqa: E402
 import slam_plan  # noqa: E402
 import slam_score  # noqa: E402
@@ -130,10 +131,6 @@ def check_plan_and_table():
 
 def check_figure():
     """A flight of which the way in was followed and the way out was not: the second half is mirrored behind the deepest place."""
-    try:
-        import slam_figure
-    except ImportError:  # matplotlib is a package of `make slam-judges` alone
-        return
     into = [-0.5, 0.5, 1.5, 2.5, 1.4, 0.4, -0.6]
     places, shares = slam_figure.binned(*slam_figure.joined([(into, [1, 1, 1, 1, 0, 0, 0])]), 3.0)
     assert places == [-0.5, 0.5, 1.5, 2.5, 4.5, 5.5, 6.5] and shares == [100] * 4 + [0] * 3, (places, shares)

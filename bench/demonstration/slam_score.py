@@ -5,8 +5,8 @@ import numpy as np
 
 import carriers
 
-WINDOW = 0.5          # of the true way, over which motions are compared; unit: m
-TOLERANCE = 0.1       # error of such a motion that still counts as followed; unit: m
+WINDOW = 1.0          # of the true way, over which motions are compared; unit: m
+TOLERANCE = 0.2       # error of such a motion that still counts as followed; unit: m
 ON_TRACK = 0.1        # as of `rubble eval sfm`; unit: m
 LOST_FOR = 0.5        # time without a followed motion after which the way counts as lost; unit: s
 

@@ -32,13 +32,20 @@ def collect(work):
     return found
 
 
+def cell(values, digits):
+    """As tables.cell(), without a range where all are alike."""
+    values = [v for v in values if v is not None]
+    alike = len({"%.*f" % (digits, v) for v in values}) == 1
+    return tables.cell(values[:1] if alike else values, digits)
+
+
 def places(summaries):
     """Where the way was lost: on the way in, or on the way out again."""
     parts = []
     for going in ("in", "out"):
         values = [s["lost_into_m"] for s in summaries if s["lost_going"] == going]
         if values:
-            parts.append("%s, way %s (%d)" % (tables.cell(values, 1), going, len(values)))
+            parts.append("%s, way %s (%d)" % (cell(values, 1), going, len(values)))
     return "; ".join(parts) or "-"
 
 
@@ -46,7 +53,7 @@ def cells(results):
     summaries = [r["summary"] for r in results.values()]
     columns = [("frames", 0), ("pose_percent", 0), ("followed_percent", 0), ("on_track_percent", 0), ("maps", 1), ("ate_rmse_m", 2)]
     row = [", ".join(str(s) for s in sorted({seed for seed, _ in results})), str(len(results))]
-    row += [tables.cell([s[key] for s in summaries], digits) for key, digits in columns]
+    row += [cell([s[key] for s in summaries], digits) for key, digits in columns]
     lost = sum(s["lost_after_m"] is not None for s in summaries)
     return row + ["%d of %d" % (lost, len(summaries)), places(summaries)]
 

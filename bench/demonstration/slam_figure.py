@@ -41,7 +41,7 @@ def draw(found, mapped, path):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     chosen = [(name, title) for name, title in PANELS if any(flight == name for flight, _ in found)]
-    figure, axes = plt.subplots(len(chosen), 1, figsize=(10, 3.4 * len(chosen) + 1.4), sharex=True, squeeze=False)
+    figure, axes = plt.subplots(len(chosen), 1, figsize=(10, 3.4 * len(chosen) + 0.9), sharex=True, squeeze=False)
     curves = {}  # by panel: (legend, style, flights)
     for name, _ in chosen:
         curves[name] = [(judge.title, dict(fmt="s--" if judge.kind == "lidar" else "o-", color=COLOURS[judge.name]),
@@ -69,5 +69,5 @@ def draw(found, mapped, path):
     axes[-1, 0].set_xticklabels(["%g" % t for t in ticks] + ["%g" % t for t in ticks if t < deepest])
     axes[-1, 0].set_xlabel("metres into the void: way in, the deepest place, and way out (0: the entrance)")
     figure.legend(lines.values(), lines.keys(), loc="lower center", ncol=3, fontsize=9)
-    figure.tight_layout(rect=(0, 1.3 / (3.4 * len(chosen) + 1.4), 1, 1))
+    figure.tight_layout(rect=(0, 0.8 / (3.4 * len(chosen) + 0.9), 1, 1))
     figure.savefig(path, dpi=90)

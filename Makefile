@@ -1,7 +1,7 @@
 # A thin front for the CMake presets in CMakePresets.json. `make demo` and `make test` are all that
 # a newcomer needs; both install what is missing first.
 
-.PHONY: help packages program-packages build all package package-arm64 image archive wheel install site asset-maker live demo demonstration pictures film test release-check check test-nightly test-asan test-tsan test-files fuzz mutants faults pairs verification determinism platforms format clean
+.PHONY: help packages program-packages build all package package-arm64 image archive wheel install site asset-maker live demo demonstration slam-judges pictures film test release-check check test-nightly test-asan test-tsan test-files fuzz mutants faults pairs verification determinism platforms format clean
 
 PROGRAM := build/release/rubble
 # Tests have one thread each, so as many run at once as there are processors.
@@ -12,6 +12,7 @@ help:
 	@echo "make test       install what is missing, build, and run the test suite"
 	@echo "make check T=kernel  build and run the tests of one part, or suites of it: T=app.Batch"
 	@echo "make demonstration  flights into a ruin, and what structure from motion makes of them; goes on where it stopped (docs/explanation/sfm.md)"
+	@echo "make slam-judges  SLAM systems of PyPI on flights into the same ruin; goes on where it stopped (docs/explanation/slam_judges.md)"
 	@echo "make pictures   draw the pictures of the documents anew, and docs/gallery.md; it goes on where it stopped"
 	@echo "make film       make the film of the demo: docs/pictures/demo.mp4"
 	@echo "make build      build the program and its assets only: $(PROGRAM)"
@@ -108,6 +109,10 @@ demo: build
 # DEMONSTRATION_OPTIONS: see bench/demonstration/run, as in DEMONSTRATION_OPTIONS="--size small --hours 2 --seeds 1".
 demonstration: build
 	bench/demonstration/run --document $(DEMONSTRATION_OPTIONS)
+
+# SLAM_OPTIONS: see bench/demonstration/slam, as in SLAM_OPTIONS="--hours 2 --seeds 1".
+slam-judges: build
+	bench/demonstration/slam --document $(SLAM_OPTIONS)
 
 # All pictures of the documents but the film, and the tables that are drawn with them; hours. It goes on where it stopped.
 # PICTURES: some of the steps alone, as in PICTURES="demo drive"; tools/draw_pictures.py --list has their names.

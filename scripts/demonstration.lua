@@ -6,6 +6,7 @@ local flight = rubble.parameter("flight", "outside", {
   choices = { "outside", "inside", "track" }, doc = "Around the ruin, into it, or along track.txt beside this script.",
 })
 local bricks = rubble.parameter("bricks", 2800, { type = "integer", min = 0, max = 20000, doc = "Loose pieces that fall last." })
+local lidar = rubble.parameter("lidar", false, { doc = "An Ouster OS0 on the camera." })
 local radius = rubble.parameter("radius", 0.2, { min = 0.05, max = 1, unit = "m", doc = "Of the robot that goes in." })
 
 -- An open ground storey under two storeys with brick walls: the shaking breaks its columns.
@@ -57,5 +58,6 @@ return rubble.mission {
     optics = { point_spread = 0.5 },
     sensor = { vignette = 1, prnu = 0.01, jpeg_quality = 90 },
   },
+  lidars = lidar and { top = { model = "os0", position = { 0, 0, 0.08 } } } or {},
   trajectory = trajectory,
 }

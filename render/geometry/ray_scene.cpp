@@ -131,15 +131,35 @@ bool RayScene::blocked(const Vec3f& from, const Vec3f& d, float nearest, float f
   return tree_.hides({from, d, nearest, farthest, 0});
 }
 
-void RayScene::cast_many(const Ray* rays, std::size_t count, PreciseHit* hits) const {
-  for (std::size_t i = 0; i < count; ++i) {
-    const RayTree::Hit hit = tree_.meet(line_of(rays[i]));
+void RayScene::cast_many(const Ray* rays, std::size_t count, Order order, PreciseHit* hits) const {
+  const auto put = [&](std::size_t i, const RayTree::Hit& hit) {
     hits[i] = {hit.triangle, hit.distance, hit.u, hit.v, hit.back};
+  };
+  if (order == Order::scattered) {
+    for (std::size_t i = 0; i < count; ++i) put(i, tree_.meet(line_of(rays[i])));
+    return;
+  }
+  for (std::size_t first = 0; first < count; first += RayTree::kPacket) {
+    const std::size_t of_packet = std::min(RayTree::kPacket, count - first);
+    RayTree::Line lines[RayTree::kPacket];
+    RayTree::Hit met[RayTree::kPacket];
+    for (std::size_t i = 0; i < of_packet; ++i) lines[i] = line_of(rays[first + i]);
+    tree_.meet_packet(lines, of_packet, met);
+    for (std::size_t i = 0; i < of_packet; ++i) put(first + i, met[i]);
   }
 }
 
-void RayScene::blocked_many(const Ray* rays, std::size_t count, std::uint8_t* hidden) const {
-  for (std::size_t i = 0; i < count; ++i) hidden[i] = tree_.hides(line_of(rays[i]));
+void RayScene::blocked_many(const Ray* rays, std::size_t count, Order order, std::uint8_t* hidden) const {
+  if (order == Order::scattered) {
+    for (std::size_t i = 0; i < count; ++i) hidden[i] = tree_.hides(line_of(rays[i]));
+    return;
+  }
+  for (std::size_t first = 0; first < count; first += RayTree::kPacket) {
+    const std::size_t of_packet = std::min(RayTree::kPacket, count - first);
+    RayTree::Line lines[RayTree::kPacket];
+    for (std::size_t i = 0; i < of_packet; ++i) lines[i] = line_of(rays[first + i]);
+    tree_.hide_packet(lines, of_packet, hidden + first);
+  }
 }
 
 }  // namespace rubble

@@ -42,6 +42,9 @@ class RayScene {
     float u = 0, v = 0;              // weights of the triangle's second and third corner
     bool back = false;               // from inside
   };
+  // Packets pay where neighbouring rays go the same way; elsewhere each ray goes alone. The bits are the same.
+  enum class Order { coherent, scattered };
+
   // The scene must outlive it.
   explicit RayScene(const PreparedScene& scene, Detail detail = Detail::coarsest, Part part = Part::all);
   ~RayScene();
@@ -55,8 +58,8 @@ class RayScene {
   Hit cast(const Vec3f& from, const Vec3f& direction, float nearest, float farthest) const;
   bool blocked(const Vec3f& from, const Vec3f& direction, float nearest, float farthest) const;
   // The same for `count` rays at once: hits[i] is that of rays[i], hidden[i] is 1 where it is blocked.
-  void cast_many(const Ray* rays, std::size_t count, PreciseHit* hits) const;
-  void blocked_many(const Ray* rays, std::size_t count, std::uint8_t* hidden) const;
+  void cast_many(const Ray* rays, std::size_t count, Order order, PreciseHit* hits) const;
+  void blocked_many(const Ray* rays, std::size_t count, Order order, std::uint8_t* hidden) const;
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
  private:

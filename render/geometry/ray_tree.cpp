@@ -32,9 +32,13 @@ void write_bounds(const Aabb& box, RTCBounds& bounds) {
   bounds.upper_x = round_up(box.max.x), bounds.upper_y = round_up(box.max.y), bounds.upper_z = round_up(box.max.z);
 }
 
+// How far a tree has to look for hits up to a distance: beyond the beginning in any case, or a hit right there could hide
+// another one as near.
+float tree_end(float nearest, float distance) { return std::max(distance, nearest + std::max(1e-6f * nearest, 1e-30f)); }
+
 RTCRay ray_of(const BlockRay& ray, float farthest) {
-  return {ray.from.x,      ray.from.y,      ray.from.z, ray.nearest, ray.direction.x,
-          ray.direction.y, ray.direction.z, 0,          farthest,    0xffffffffu,
+  return {ray.from.x,      ray.from.y,      ray.from.z, ray.nearest,                      ray.direction.x,
+          ray.direction.y, ray.direction.z, 0,          tree_end(ray.nearest, farthest), 0xffffffffu,
           0,               0};
 }
 
@@ -79,17 +83,39 @@ struct Placed {
   }
 };
 
-// What the callbacks of a query know.
+// What the callbacks of a query know: of each ray of a packet, or of the one.
 struct BlockQuery : EmbreeRayContext {
-  BlockQuery(const BlockRay& ray_, const BlockHit& hit_) : ray(ray_), hit(hit_) {}
-  const BlockRay& ray;
-  BlockHit hit;
+  BlockQuery(const BlockRay* rays_, BlockHit* hits_, bool coherent) : EmbreeRayContext(coherent), rays(rays_), hits(hits_) {}
+  const BlockRay* rays;
+  BlockHit* hits;
 };
 struct PartQuery : EmbreeRayContext {
-  PartQuery(const BlockRay& ray_, float time_, RayTree::Hit& hit_) : ray(ray_), time(time_), hit(hit_) {}
-  const BlockRay& ray;
-  float time;
-  RayTree::Hit& hit;
+  PartQuery(const BlockRay* rays_, const float* times_, RayTree::Hit* hits_, bool coherent)
+      : EmbreeRayContext(coherent), rays(rays_), times(times_), hits(hits_) {}
+  const BlockRay* rays;
+  const float* times;
+  RayTree::Hit* hits;
+};
+
+constexpr std::size_t kPacket = RayTree::kPacket;
+
+// Rays of a packet, and what is met until now: nothing.
+struct Packet {
+  Packet(const RayTree::Line* lines, std::size_t count, std::uint32_t first_id, RTCRay8& out) {
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      valid[i] = i < count ? -1 : 0;
+      const RayTree::Line& line = lines[std::min(i, count - 1)];
+      rays[i] = {line.from, line.direction, line.nearest, first_id};
+      hits[i].distance = line.farthest;
+      out.org_x[i] = line.from.x, out.org_y[i] = line.from.y, out.org_z[i] = line.from.z;
+      out.dir_x[i] = line.direction.x, out.dir_y[i] = line.direction.y, out.dir_z[i] = line.direction.z;
+      out.tnear[i] = line.nearest, out.tfar[i] = tree_end(line.nearest, line.farthest), out.time[i] = 0;
+      out.mask[i] = 0xffffffffu, out.id[i] = unsigned(i), out.flags[i] = 0;
+    }
+  }
+  alignas(32) int valid[kPacket];
+  BlockRay rays[kPacket];
+  BlockHit hits[kPacket];
 };
 
 const BlockFunctions& functions() {
@@ -97,39 +123,45 @@ const BlockFunctions& functions() {
   return chosen;
 }
 
-// For one ray, RTCRayHitN is RTCRayHit, and RTCRayN is RTCRay.
-RTCRay& ray_in(const RTCIntersectFunctionNArguments* args) { return reinterpret_cast<RTCRayHit*>(args->rayhit)->ray; }
-RTCRay& ray_in(const RTCOccludedFunctionNArguments* args) { return *reinterpret_cast<RTCRay*>(args->ray); }
+RTCRayN* rays_in(const RTCIntersectFunctionNArguments* args) { return RTCRayHitN_RayN(args->rayhit, args->N); }
 
 void bound_block(const RTCBoundsFunctionArguments* args) {
   write_bounds(tree_bounds(static_cast<const TriangleBlock*>(args->geometryUserPtr)[args->primID]), *args->bounds_o);
 }
+// A processor may lack packets of this size: Embree then calls with parts of them. The number of a ray is in `id`.
 void meet_block(const RTCIntersectFunctionNArguments* args) {
-  if (!args->valid[0]) return;
-  auto& query = *static_cast<BlockQuery*>(args->context);
-  const auto* const blocks = static_cast<const TriangleBlock*>(args->geometryUserPtr);
-  if (functions().meet(blocks[args->primID], query.ray, query.hit)) ray_in(args).tfar = query.hit.distance;
+  const auto& query = *static_cast<const BlockQuery*>(args->context);
+  const TriangleBlock& block = static_cast<const TriangleBlock*>(args->geometryUserPtr)[args->primID];
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (!args->valid[i]) continue;
+    const unsigned ray = RTCRayN_id(rays_in(args), args->N, i);
+    if (functions().meet(block, query.rays[ray], query.hits[ray]))
+      RTCRayN_tfar(rays_in(args), args->N, i) = tree_end(query.rays[ray].nearest, query.hits[ray].distance);
+  }
 }
 void hide_by_block(const RTCOccludedFunctionNArguments* args) {
-  if (!args->valid[0]) return;
   const auto& query = *static_cast<const BlockQuery*>(args->context);
-  const auto* const blocks = static_cast<const TriangleBlock*>(args->geometryUserPtr);
-  if (functions().hides(blocks[args->primID], query.ray, query.hit.distance)) ray_in(args).tfar = -kInfinity;
+  const TriangleBlock& block = static_cast<const TriangleBlock*>(args->geometryUserPtr)[args->primID];
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (!args->valid[i]) continue;
+    const unsigned ray = RTCRayN_id(args->ray, args->N, i);
+    if (functions().hides(block, query.rays[ray], query.hits[ray].distance))
+      RTCRayN_tfar(args->ray, args->N, i) = -kInfinity;
+  }
 }
 
 void Mesh::meet(const BlockRay& ray, BlockHit& hit) const {
-  BlockQuery query(ray, hit);
+  BlockQuery query(&ray, &hit, false);
   RTCRayHit asked{};
   asked.ray = ray_of(ray, hit.distance);
   asked.hit.geomID = asked.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   embree_intersect(scene, asked, query);
-  hit = query.hit;
 }
 
 bool Mesh::hides(const BlockRay& ray, float farthest) const {
   BlockHit limit;
   limit.distance = farthest;
-  BlockQuery query(ray, limit);
+  BlockQuery query(&ray, &limit, false);
   RTCRay asked = ray_of(ray, farthest);
   embree_occlude(scene, asked, query);
   return asked.tfar < 0;
@@ -153,16 +185,18 @@ void bound_part(const RTCBoundsFunctionArguments* args) {
   bounds.upper_x = bounds.upper_y = bounds.upper_z = -kInfinity;
 }
 void meet_part(const RTCIntersectFunctionNArguments* args) {
-  if (!args->valid[0]) return;
-  auto& query = *static_cast<PartQuery*>(args->context);
-  const Placed& part = static_cast<const Placed*>(args->geometryUserPtr)[args->primID];
-  if (meet_placed(part, args->primID, query.ray, query.time, query.hit)) ray_in(args).tfar = query.hit.distance;
-}
-void hide_by_part(const RTCOccludedFunctionNArguments* args) {
-  if (!args->valid[0]) return;
   const auto& query = *static_cast<const PartQuery*>(args->context);
   const Placed& part = static_cast<const Placed*>(args->geometryUserPtr)[args->primID];
-  if (part.mesh->hides(part.ray_in_mesh(query.ray, query.time), query.hit.distance)) ray_in(args).tfar = -kInfinity;
+  for (unsigned i = 0; i < args->N; ++i)
+    if (args->valid[i] && meet_placed(part, args->primID, query.rays[i], query.times[i], query.hits[i]))
+      RTCRayN_tfar(rays_in(args), args->N, i) = tree_end(query.rays[i].nearest, query.hits[i].distance);
+}
+void hide_by_part(const RTCOccludedFunctionNArguments* args) {
+  const auto& query = *static_cast<const PartQuery*>(args->context);
+  const Placed& part = static_cast<const Placed*>(args->geometryUserPtr)[args->primID];
+  for (unsigned i = 0; i < args->N; ++i)
+    if (args->valid[i] && part.mesh->hides(part.ray_in_mesh(query.rays[i], query.times[i]), query.hits[i].distance))
+      RTCRayN_tfar(args->ray, args->N, i) = -kInfinity;
 }
 
 // Of a mesh between the two poses of a part.
@@ -321,7 +355,7 @@ RayTree::Hit RayTree::meet(const Line& line) const {
     if (e.alone) {
       meet_placed(*e.alone, e.alone_number, ray, line.time, hit);
     } else if (e.scene) {
-      PartQuery query(ray, line.time, hit);
+      PartQuery query(&ray, &line.time, &hit, false);
       RTCRayHit asked{};
       asked.ray = ray_of(ray, hit.distance);
       asked.hit.geomID = asked.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -346,7 +380,7 @@ bool RayTree::hides(const Line& line) const {
     if (!e.scene) return false;
     Hit limit;
     limit.distance = farthest;
-    PartQuery query(ray, line.time, limit);
+    PartQuery query(&ray, &line.time, &limit, false);
     RTCRay asked = ray_of(ray, farthest);
     embree_occlude(e.scene, asked, query);
     return asked.tfar < 0;
@@ -356,6 +390,44 @@ bool RayTree::hides(const Line& line) const {
     return cast({line.from, line.direction, line.nearest}, line.farthest);
   return cast({line.from, line.direction, line.nearest}, start) ||
          cast({line.from + line.direction * start, line.direction, 0}, line.farthest - start);
+}
+
+// Packets are for what rests alone: each ray has its own place among what moves.
+bool RayTree::has_packets(const Line* lines, std::size_t count) const {
+  const double far = kFarAway * reach_;
+  return embree_->alone && std::all_of(lines, lines + count, [far](const Line& line) {
+           return dot(Vec3(line.from), Vec3(line.from)) <= far * far;
+         });
+}
+
+void RayTree::meet_packet(const Line* lines, std::size_t count, Hit* hits) const {
+  if (!has_packets(lines, count)) {
+    for (std::size_t i = 0; i < count; ++i) hits[i] = meet(lines[i]);
+    return;
+  }
+  const Embree& e = *embree_;
+  RTCRayHit8 asked;
+  Packet packet(lines, count, e.alone->first_id, asked.ray);
+  for (std::size_t i = 0; i < kPacket; ++i) asked.hit.geomID[i] = asked.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  BlockQuery query(packet.rays, packet.hits, true);
+  embree_intersect(e.alone->mesh->scene, packet.valid, asked, query);
+  for (std::size_t i = 0; i < count; ++i) {
+    static_cast<BlockHit&>(hits[i]) = packet.hits[i];
+    hits[i].part = packet.hits[i].triangle == kNone ? kNone : e.alone_number;
+  }
+}
+
+void RayTree::hide_packet(const Line* lines, std::size_t count, std::uint8_t* hidden) const {
+  if (!has_packets(lines, count)) {
+    for (std::size_t i = 0; i < count; ++i) hidden[i] = hides(lines[i]);
+    return;
+  }
+  const Embree& e = *embree_;
+  RTCRay8 asked;
+  Packet packet(lines, count, e.alone->first_id, asked);
+  BlockQuery query(packet.rays, packet.hits, true);
+  embree_occlude(e.alone->mesh->scene, packet.valid, asked, query);
+  for (std::size_t i = 0; i < count; ++i) hidden[i] = asked.tfar[i] < 0;
 }
 
 }  // namespace rubble

@@ -22,12 +22,13 @@ struct alignas(32) TriangleBlock {
 };
 
 struct BlockRay {
+  BlockRay() = default;
   // direction: of any length. nearest: unit: lengths of the direction, as all distances along a ray.
   BlockRay(const Vec3f& from, const Vec3f& direction, float nearest, std::uint32_t first_id = 0);
 
   Vec3f from, direction, inverse;
-  float nearest;           // a hit is farther than this
-  std::uint32_t first_id;  // is added to the numbers of the triangles
+  float nearest = 0;           // a hit is not nearer than this
+  std::uint32_t first_id = 0;  // is added to the numbers of the triangles
 };
 
 // Of equally near hits, that of the triangle with the smallest number counts.

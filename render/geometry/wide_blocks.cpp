@@ -67,7 +67,7 @@ RUBBLE_INLINE Meeting meet(const TriangleBlock& block, const BlockRay& ray, int 
   clip(a.z, b.z, c.z, block.margin, ray.from.z, ray.inverse.z, enter, leave);
   out.met &= enter <= leave;
   out.distance = min(max(dot(out.normal, ra) / out.facing, enter), leave);
-  out.met &= out.distance > real(ray.nearest);
+  out.met &= out.distance >= real(ray.nearest);
   out.u = clamp(u / sum, 0.0f, 1.0f), out.v = clamp(v / sum, 0.0f, 1.0f);
   return out;
 }

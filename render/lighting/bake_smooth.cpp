@@ -58,7 +58,7 @@ void Baker::join_neighbours(std::uint32_t i, const PointCells& grid, std::vector
     ends.push_back(k);
   });
   std::vector<std::uint8_t> hidden(lines.size());
-  rays_.blocked_many(lines.data(), lines.size(), hidden.data());
+  rays_.blocked_many(lines.data(), lines.size(), RayScene::Order::coherent, hidden.data());
   const auto take = [&](std::uint32_t of, std::uint32_t from, float away) {
     const float reach = reach_of(points_[of]);
     if (away < reach) neighbours_[of].push_back({from, 1 - away * away / (reach * reach)});

@@ -119,7 +119,7 @@ void Baker::trace(std::size_t i) {
   std::array<RayScene::PreciseHit, kFirstRays> hits;
   for (std::size_t r = 0; r < count; ++r)
     rays[r] = {from[r % origins], 0, fan.direction(r), kLightReach};
-  rays_.cast_many(rays.data(), count, hits.data());
+  rays_.cast_many(rays.data(), count, RayScene::Order::scattered, hits.data());
   std::array<int, kMostOrigins> cast{}, inside{};
   for (std::size_t r = 0; r < count; ++r)
     ++cast[r % origins], inside[r % origins] += hits[r].triangle != RayScene::kNone && hits[r].back;
@@ -193,7 +193,7 @@ void Baker::find_direct(std::size_t i) {
       light[count++] = sample.illuminance * (facing / float(places.size()));
     }
     std::array<std::uint8_t, kDirectPlaces> hidden;
-    if (count) rays_.blocked_many(rays.data(), count, hidden.data());
+    if (count) rays_.blocked_many(rays.data(), count, RayScene::Order::coherent, hidden.data());
     for (std::size_t k = 0; k < count; ++k)
       if (!hidden[k]) p.direct += light[k] * cleared(rays[k], rays[k].farthest);
   }
@@ -257,7 +257,7 @@ void Baker::add_round(std::size_t i, std::uint32_t round, Sum& sum) const {
   const std::size_t count = spokes_.size();
   for (std::size_t r = 0; r < count; ++r)
     rays[r] = {from[(r + round) % origins], 0, fan.direction(r), kLightReach};
-  rays_.cast_many(rays.data(), count, hits.data());
+  rays_.cast_many(rays.data(), count, RayScene::Order::scattered, hits.data());
   const std::uint32_t draws = std::uint32_t(options_.seed) + round * 0x9e3779b9u;
   for (std::size_t r = 0; r < count; ++r) {
     const Vec3f& w = rays[r].direction;

@@ -62,7 +62,7 @@ std::uint8_t CornerSight::seen_from(const Vec3f& place) const {
     rays[k] = {place, 0, way, 1};
     if (dot(way, way) < 1e-10f) rays[k] = {place, 0, {0, 0, 1}, 1e-5f};  // it is that corner
   }
-  rays_.blocked_many(rays.data(), rays.size(), hidden.data());
+  rays_.blocked_many(rays.data(), rays.size(), RayScene::Order::coherent, hidden.data());
   std::uint8_t seen = 0;
   for (std::size_t k = 0; k < 8; ++k)
     if (!hidden[k]) seen = std::uint8_t(seen | 1u << k);

@@ -63,7 +63,7 @@ void GlassRays::cast(const RayScene& solid, const ViewRays& view, const Pixel& p
   const float before = kNearPlane * slope / value;
   RayScene::Ray ray{Vec3f(pose.translation), behind(before), Vec3f(pose.rotation.rotate(Vec3(d))), kRayEnd};
   RayScene::PreciseHit hit, sheet;
-  solid.cast_many(&ray, 1, &hit);
+  solid.cast_many(&ray, 1, RayScene::Order::scattered, &hit);
   if (hit.triangle != RayScene::kNone) ray.farthest = hit.distance;
   if (!last) sheet = sheets_.next(ray);
   if (sheet.triangle != RayScene::kNone && sheet.distance - before < kSameSheet &&

@@ -81,8 +81,11 @@ struct RayWorld::Tree {
   void add_resting(const Scene& from);
   void add_movers(const Scene& from);
   void stand_up(const std::vector<std::uint8_t>& stands);
-  RayTree::Hit meet(const Ray& ray, double max_distance) const {
-    return tree.meet({Vec3f(ray.from), Vec3f(ray.direction), 0, float(max_distance), ray.time});
+  void meet(const Ray* rays, std::size_t count, double max_distance, RayTree::Hit* met) const {
+    RayTree::Line lines[kPacket];
+    for (std::size_t i = 0; i < count; ++i)
+      lines[i] = {Vec3f(rays[i].from), Vec3f(rays[i].direction), 0, float(max_distance), rays[i].time};
+    tree.meet_packet(lines, count, met);
   }
   const Merged* merged_of(std::uint32_t part) const;
   std::uint32_t triangle_of(const RayTree::Hit& hit) const { return hit.triangle - tree.parts()[hit.part].first_id; }
@@ -272,8 +275,10 @@ void RayWorld::span(std::int64_t from_ns, std::int64_t to_ns) {
 }
 
 void RayWorld::cast(const Ray* rays, std::size_t count, double max_distance, Hit* hits) const {
+  RayTree::Hit met[kPacket];
+  tree_->meet(rays, count, max_distance, met);
   for (std::size_t i = 0; i < count; ++i) {
-    const RayTree::Hit hit = tree_->meet(rays[i], max_distance);
+    const RayTree::Hit& hit = met[i];
     hits[i] = {};
     if (hit.triangle != RayTree::kNone) hits[i] = tree_->read(hit, rays[i]);
     const double ground = tree_->meet_ground(rays[i], max_distance, hits[i].distance);
@@ -284,13 +289,15 @@ void RayWorld::cast(const Ray* rays, std::size_t count, double max_distance, Hit
 
 void RayWorld::cast(const Ray* rays, std::size_t count, double max_distance, double* distances,
                     std::int32_t* pieces) const {
+  RayTree::Hit met[kPacket];
+  tree_->meet(rays, count, max_distance, met);
   for (std::size_t i = 0; i < count; ++i) {
-    const RayTree::Hit hit = tree_->meet(rays[i], max_distance);
-    const bool met = hit.triangle != RayTree::kNone;
-    distances[i] = met ? double(hit.distance) : -1;
+    const RayTree::Hit& hit = met[i];
+    const bool is_met = hit.triangle != RayTree::kNone;
+    distances[i] = is_met ? double(hit.distance) : -1;
     const double ground = tree_->meet_ground(rays[i], max_distance, distances[i]);
     if (ground >= 0) distances[i] = ground;
-    if (pieces) pieces[i] = met && ground < 0 ? tree_->piece_of(hit) : -1;
+    if (pieces) pieces[i] = is_met && ground < 0 ? tree_->piece_of(hit) : -1;
   }
 }
 

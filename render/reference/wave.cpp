@@ -109,14 +109,14 @@ void Wave::begin(const PixelBox& box, int first, int last) {
   }
 }
 
-void Wave::cast() {
+void Wave::cast(RayScene::Order order) {
   rays_.clear();
   for (const std::uint32_t index : active_) {
     const Path& path = paths_[index];
     rays_.push_back({path.from, path.nearest, path.direction, kFarthest});
   }
   hits_.resize(rays_.size());
-  scene_.rays.cast_many(rays_.data(), rays_.size(), hits_.data());
+  scene_.rays.cast_many(rays_.data(), rays_.size(), order, hits_.data());
 }
 
 // What faces away from the camera is not drawn.
@@ -125,7 +125,7 @@ void Wave::pass_backs(std::size_t active) {
   RayScene::Ray ray = rays_[active];
   for (int i = 0; i < kMostBacks && hit.triangle != RayScene::kNone && hit.back; ++i) {
     ray.nearest = just_behind(hit.distance);
-    scene_.rays.cast_many(&ray, 1, &hit);
+    scene_.rays.cast_many(&ray, 1, RayScene::Order::scattered, &hit);
   }
 }
 
@@ -143,13 +143,15 @@ bool Wave::step() {
   if (active_.empty()) return false;
   const bool first = first_;
   first_ = false;
-  cast();
+  cast(first ? RayScene::Order::coherent : RayScene::Order::scattered);
   next_.clear();
   for (std::size_t i = 0; i < active_.size(); ++i) {
     if (first) pass_backs(i);
     if (follow(active_[i], met(i))) next_.push_back(active_[i]);
   }
-  for (ShadowList& list : towards_) answer(list);
+  for (std::size_t i = 0; i + 1 < towards_.size(); ++i)
+    answer(towards_[i], RayScene::Order::coherent);
+  answer(towards_.back(), RayScene::Order::scattered);
   active_.swap(next_);
   return true;
 }
@@ -275,10 +277,10 @@ void Wave::ask(std::uint32_t index, std::size_t list, const Vec3f& from, const V
   towards_[where].shadows.push_back({index, light});
 }
 
-void Wave::answer(ShadowList& list) {
+void Wave::answer(ShadowList& list, RayScene::Order order) {
   if (list.rays.empty()) return;
   hidden_.resize(list.rays.size());
-  scene_.rays.blocked_many(list.rays.data(), list.rays.size(), hidden_.data());
+  scene_.rays.blocked_many(list.rays.data(), list.rays.size(), order, hidden_.data());
   const bool sheets = scene_.sheets && scene_.sheets->any();
   for (std::size_t i = 0; i < list.rays.size(); ++i) {
     if (hidden_[i]) continue;

@@ -55,7 +55,7 @@ class Wave {
 
   SamplePair draw(const Path& path, Use use) const;
   bool aim(Path& path, int u, int v);
-  void cast();
+  void cast(RayScene::Order order);
   void pass_backs(std::size_t active);
   Met met(std::size_t active) const;
   // Each returns whether the path goes on.
@@ -71,7 +71,7 @@ class Wave {
   void light_surface(std::uint32_t index, const SurfacePoint& surface, const Vec3f& out);
   void ask(std::uint32_t index, std::size_t list, const Vec3f& from, const Vec3f& to_light,
            float distance, const Vec3f& light);
-  void answer(ShadowList& list);
+  void answer(ShadowList& list, RayScene::Order order);
   Vec3f passed(RayScene::Ray ray) const;  // share of a light that comes through glass
 
   const TracedScene& scene_;

@@ -83,7 +83,7 @@ bool LinkMaker::look_around(std::size_t i) {
   std::array<RayScene::Ray, AirLinks::kDirections> rays;
   std::array<RayScene::PreciseHit, AirLinks::kDirections> hits;
   for (std::size_t k = 0; k < rays.size(); ++k) rays[k] = {from, 0, links_.directions[k], kLightReach};
-  rays_.cast_many(rays.data(), rays.size(), hits.data());
+  rays_.cast_many(rays.data(), rays.size(), RayScene::Order::scattered, hits.data());
   std::size_t inside = 0;
   for (std::size_t k = 0; k < rays.size(); ++k) {
     AirLinks::End& end = links_.ends[k * links_.grid.count() + i];

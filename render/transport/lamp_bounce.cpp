@@ -65,7 +65,7 @@ void LampBounce::cast_map(const Vec3f& from) {
     std::array<RayScene::PreciseHit, kSide> hits;
     for (int y = begin; y < end; ++y) {
       for (int x = 0; x < kSide; ++x) rays[std::size_t(x)] = {from, 0, direction_of(x, y), kReach};
-      scene_rays.cast_many(rays.data(), rays.size(), hits.data());
+      scene_rays.cast_many(rays.data(), rays.size(), RayScene::Order::coherent, hits.data());
       for (std::size_t x = 0; x < kSide; ++x)
         map_[std::size_t(y) * kSide + x] = hits[x].triangle == RayScene::kNone ? kReach : hits[x].distance;
     }

@@ -94,12 +94,37 @@ TEST(RayTree, FindsTheHitOfAllTrianglesInTurn) {
       if (found.triangle == RayTree::kNone) continue;
       ASSERT_EQ(hash_of(found), hash_of(expected)) << "seed " << seed << ", ray " << i;
       ASSERT_TRUE(tree.hides(line)) << "seed " << seed << ", ray " << i;
-      line.farthest = std::nextafter(expected.distance, 0.0f);
+      line.farthest = std::nextafter(expected.distance, -1.0f);
       ASSERT_FALSE(tree.hides(line)) << "seed " << seed << ", ray " << i;
       ++met;
     }
     EXPECT_GT(met, 4000);
     EXPECT_LT(met, 19000);
+  }
+}
+
+TEST(RayTree, HasTheSameBitsInPackets) {
+  const Triangles soup = make_soup(9);
+  RayTree tree(kReach);
+  std::vector<TriangleBlock> blocks;
+  tree.append(order_blocks(std::uint32_t(soup.size()), corners_of(soup)), corners_of(soup), 0, blocks);
+  tree.parts().emplace_back().mesh = tree.add_mesh(blocks);
+  tree.commit();
+  RandomStream random(9, "rays");
+  for (std::size_t i = 0; i < 4000; ++i) {
+    RayTree::Line lines[RayTree::kPacket];
+    RayTree::Hit hits[RayTree::kPacket];
+    std::uint8_t hidden[RayTree::kPacket];
+    const std::size_t count = i % RayTree::kPacket + 1;
+    for (std::size_t k = 0; k < count; ++k) lines[k] = make_line(random, soup, int(i + 17 * k));
+    tree.meet_packet(lines, count, hits);
+    tree.hide_packet(lines, count, hidden);
+    for (std::size_t k = 0; k < count; ++k) {
+      const RayTree::Hit alone = tree.meet(lines[k]);
+      ASSERT_EQ(hash_of(hits[k]), hash_of(alone)) << "packet " << i << ", ray " << k;
+      ASSERT_EQ(hits[k].part, alone.part);
+      ASSERT_EQ(bool(hidden[k]), tree.hides(lines[k])) << "packet " << i << ", ray " << k;
+    }
   }
 }
 
@@ -164,6 +189,19 @@ TEST(RayTree, MeetsWhatMovesWhereItIs) {
     ++met;
   }
   EXPECT_GT(met, 1000);
+}
+
+// A ray that begins within a surface meets it at no distance: whatever is beside it in a corner is not open.
+TEST(RayTree, MeetsWhatItBeginsIn) {
+  const Triangles wall(1, {Vec3f{0, 0, 0}, Vec3f{2, 0, 0}, Vec3f{0, 2, 0}});
+  RayTree tree(2);
+  tree.parts().emplace_back().mesh = tree.add_mesh(order_blocks(1, corners_of(wall)), corners_of(wall));
+  tree.commit();
+  for (const float up : {1.0f, -1.0f}) {
+    EXPECT_EQ(tree.meet({{0.5f, 0.5f, 0}, {0.1f, 0.2f, up}, 0, 5, 0}).distance, 0);
+    EXPECT_TRUE(tree.hides({{0.5f, 0.5f, 0}, {0.1f, 0.2f, up}, 0, 5, 0}));
+    EXPECT_EQ(tree.meet({{0.5f, 0.5f, 0}, {0.1f, 0.2f, up}, 1e-6f, 5, 0}).triangle, RayTree::kNone);
+  }
 }
 
 TEST(RayTree, TakesTheSmallerNumberOfEqualHits) {

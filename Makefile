@@ -35,7 +35,7 @@ help:
 	@echo "make faults     interrupt a small run at many places, continue it, compare the bytes (an hour)"
 	@echo "make pairs      any two features of a mission together, judged by their data; goes on where it stopped (docs/development/pairs.md)"
 	@echo "make verification  piles, ruins and a robot at shorter steps and with more sweeps (docs/explanation/verification.md)"
-	@echo "make determinism  compare hashes of other compilers, levels and processors (half an hour)"
+	@echo "make determinism  compare hashes of other compilers, levels, processors and libraries (three quarters of an hour)"
 	@echo "make platforms PLATFORM=debian13  demo and tests in a bare Debian 13; or windows, riscv64, arm64 (docs/development/platforms.md)"
 	@echo "make format     clang-format over the tree"
 	@echo "make clean      remove build/ and out/"
@@ -193,8 +193,9 @@ verification: build/release/build.ninja
 	build/release/verification_bench --jobs 2 --out build/verification.jsonl
 	bench/verification/page.py build/verification.jsonl
 
-# Not part of any suite: it installs compilers and builds the kernel fifteen times.
-determinism: packages
+# Not part of any suite: it installs compilers, builds the kernel fifteen times, and runs the suite of missions six times.
+# DETERMINISM_OPTIONS: see tools/determinism_matrix.sh, as in DETERMINISM_OPTIONS=--missions.
+determinism: packages build
 	@tools/install_packages.sh tools/packages-determinism.txt
 	tools/determinism_matrix.sh $(DETERMINISM_OPTIONS)
 

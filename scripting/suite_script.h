@@ -21,7 +21,7 @@ namespace rubble {
 enum class GoldenParts {
   none,
   pile,  // the state hash: the same on every machine
-  all,   // frames and files, too: the same on one machine and graphics driver
+  all,   // frames and files, too: of the device `software` the same on every machine, of `gl` with one driver
 };
 
 struct SuiteRun {

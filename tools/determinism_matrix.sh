@@ -1,7 +1,12 @@
 #!/bin/sh
 # Builds the kernel with several compilers, levels and processors, runs the standard scenes, and
-# compares their hashes with tests/golden/kernel.txt. Contract: docs/explanation/determinism.md.
-# usage: tools/determinism_matrix.sh [--without-arm64] [--simbody] [--build FOLDER]  (from the root)
+# compares their hashes with tests/golden/kernel.txt. Runs whole missions under several conditions, and
+# compares their outputs with tests/determinism/missions/suite.golden.json. Contract:
+# docs/explanation/determinism.md.
+# usage: tools/determinism_matrix.sh [--without-arm64] [--simbody] [--missions | --kernel] [--programs]
+#                                    [--build FOLDER]  (from the root)
+# --missions, --kernel: one half alone. Missions are of build/release/rubble.
+# --programs: builds the program by other flags and compilers, too; hours on two processors.
 # --simbody: builds Simbody for arm64 without fused multiply-adds first, half an hour. Without it the
 # scene with joints is left out of the arm64 rows.
 # Exit status: 0 all equal; 1 something differs, does not build or does not run; 2 bad usage.
@@ -12,12 +17,18 @@ golden=$PWD/tests/golden/kernel.txt
 folder=build/determinism
 arm64=yes
 simbody=no
+kernel=yes
+missions=yes
+programs=no
 while [ $# -gt 0 ]; do
   case $1 in
     --without-arm64) arm64=no ;;
     --simbody) simbody=yes ;;
+    --missions) kernel=no ;;
+    --kernel) missions=no ;;
+    --programs) programs=yes ;;
     --build) folder=${2:?--build wants a folder}; shift ;;
-    *) echo "usage: $0 [--without-arm64] [--simbody] [--build FOLDER]" >&2; exit 2 ;;
+    *) echo "usage: $0 [--without-arm64] [--simbody] [--missions | --kernel] [--programs] [--build FOLDER]" >&2; exit 2 ;;
   esac
   shift
 done
@@ -167,21 +178,99 @@ arm64_rows() {
   done
 }
 
-native
-conditions
-pack
-if [ "$arm64" = yes ]; then
-  arm64_rows
-else
-  row aarch64 "" "" "" "" "LEFT OUT (--without-arm64)"
+# run_missions COMPILER LEVEL TARGET CONDITION PROGRAM OPTIONS COMMAND...: the suite of missions as a child of COMMAND, with
+# light baked anew. Files one line.
+run_missions() {
+  label_b=$1 label_c=$2 label_d=$3 label_e=$4 program=$5 options=$6
+  shift 6
+  echo "missions: $label_b $label_c $label_d, $label_e" >&2
+  rm -rf "$folder/missions"
+  # shellcheck disable=SC2086  # options: several words
+  if "$@" env RUBBLE_CACHE="$folder/missions/cache" "$program" suite tests/determinism/missions/suite.lua \
+    --out "$folder/missions/out" $options >"$folder/missions.txt" 2>&1; then
+    row x86_64 "$label_b" "$label_c" "$label_d" "$label_e" same
+  else
+    fail x86_64 "$label_b" "$label_c" "$label_d" "$label_e" DIFFERENT
+    grep -v '^ok ' "$folder/missions.txt" | sed 's/^/    /' >>"$table" || true
+  fi
+}
+
+# preload FILE: makes $folder/FILE.so of tests/determinism/FILE.cpp.
+preload() {
+  c++ -std=c++17 -O1 -fPIC -shared "tests/determinism/$1.cpp" -o "$folder/$1.so" -ldl
+}
+
+# An emulator starts no jobs of its own: single missions, against those that this machine has just run.
+older_processor() {
+  condition="Nehalem, qemu"
+  rm -rf "$folder/older"
+  for name in $1; do
+    if ! RUBBLE_CACHE="$folder/older/cache" qemu-x86_64 -cpu Nehalem "$program" remake \
+      "$folder/missions/out/$name/manifest.json" --out "$folder/older/$name" >"$folder/missions.txt" 2>&1; then
+      fail x86_64 g++ -O2 x86-64 "$condition" "DIFFERENT: $name"
+      sed 's/^/    /' "$folder/missions.txt" | tail -5 >>"$table"
+      return 0
+    fi
+  done
+  row x86_64 g++ -O2 x86-64 "$condition" same
+}
+
+whole_missions() {
+  program=$PWD/build/release/rubble
+  if [ ! -x "$program" ]; then
+    fail x86_64 g++ -O2 x86-64 "missions" "NOT POSSIBLE: no $program; make build"
+    return 0
+  fi
+  preload embree_isa
+  for isa in sse2 avx avx2 avx512; do
+    case $isa in avx*) grep -q -w "${isa}f\{0,1\}" /proc/cpuinfo || continue ;; esac
+    run_missions g++ -O2 x86-64 "Embree by $isa" "$program" "--threads 1" \
+      env RUBBLE_EMBREE_ISA=$isa LD_PRELOAD="$folder/embree_isa.so"
+  done
+  run_missions g++ -O2 x86-64 "libm without FMA" "$program" "--threads 2" \
+    env GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA
+  run_missions g++ -O2 x86-64 "no Mesa, 3 threads" "$program" "--threads 3" \
+    env RUBBLE_EGL_LIBRARY=/nonexistent/libEGL.so.1
+  if command -v qemu-x86_64 >/dev/null; then
+    older_processor "lidar stereo painted"
+  else
+    fail x86_64 g++ -O2 x86-64 "Nehalem, qemu" "NOT POSSIBLE: install tools/packages-determinism.txt"
+  fi
+  [ "$programs" = yes ] || return 0
+  for variant in "g++ -O3 x86-64-v3" "clang++ -O2 x86-64"; do
+    # shellcheck disable=SC2086  # three words
+    set -- $variant
+    name=program-$1$2-$3
+    echo "building $name" >&2
+    if ! cmake --preset release -B "$folder/$name" -DBUILD_TESTING=OFF "-DCMAKE_CXX_COMPILER=$1" \
+      "-DCMAKE_CXX_FLAGS_RELEASE=$2 -march=$3" >"$folder/$name.log" 2>&1 ||
+      ! cmake --build "$folder/$name" --target program >>"$folder/$name.log" 2>&1; then
+      tail -20 "$folder/$name.log" >&2
+      fail x86_64 "$1" "$2" "$3" "missions" "DOES NOT BUILD"
+      continue
+    fi
+    run_missions "$1" "$2" "$3" missions "$folder/$name/rubble" "--threads 2" env
+  done
+}
+
+if [ "$kernel" = yes ]; then
+  native
+  conditions
+  pack
+  if [ "$arm64" = yes ]; then
+    arm64_rows
+  else
+    row aarch64 "" "" "" "" "LEFT OUT (--without-arm64)"
+  fi
 fi
+[ "$missions" = no ] || whole_missions
 
 echo
 printf '%-9s %-10s %-5s %-10s %-22s %s\n' machine compiler opt target condition hashes
 cat "$table"
 echo
 if [ "$failures" -gt 0 ]; then
-  echo "determinism: $failures of $(grep -c '^[xa]' "$table") rows are not the same as $golden" >&2
+  echo "determinism: $failures of $(grep -c '^[xa]' "$table") rows are not the same as the golden hashes" >&2
   exit 1
 fi
-echo "determinism: all $(grep -c ' same$' "$table") runs give the hashes of tests/golden/kernel.txt"
+echo "determinism: all $(grep -c ' same$' "$table") runs give the golden hashes"

@@ -16,6 +16,7 @@
 #include "app/support/run_request.h"
 #include "io/image/picture_sheet.h"
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
 #include "render/renderer.h"
 
 namespace rubble {
@@ -129,7 +130,7 @@ class Picture {
   static bool hatched(int column, int row) { return (column + row) % 24 < 3; }
 
   void draw_line(const CutSegment& s) {
-    const double length = std::hypot(s.x1 - s.x0, s.z1 - s.z0);
+    const double length = quick::hypot(s.x1 - s.x0, s.z1 - s.z0);
     const int steps = 1 + int(length * view_.per_metre),
               half = std::max(1, int(kLine * view_.per_metre));
     for (int i = 0; i <= steps; ++i) {
@@ -145,11 +146,11 @@ class Picture {
   static bool near_bone(double x, double z, double xa, double za, double xb, double zb, double r) {
     const double ux = xb - xa, uz = zb - za;
     const double t = std::clamp(((x - xa) * ux + (z - za) * uz) / (ux * ux + uz * uz), 0.0, 1.0);
-    return std::hypot(x - xa - t * ux, z - za - t * uz) <= r;
+    return quick::hypot(x - xa - t * ux, z - za - t * uz) <= r;
   }
   static bool is_person(double x, double z) {
     x = std::fabs(x);  // seen from the front
-    return std::hypot(x, z - 1.63) <= 0.12 || near_bone(x, z, 0, 1.40, 0, 0.98, 0.14) ||
+    return quick::hypot(x, z - 1.63) <= 0.12 || near_bone(x, z, 0, 1.40, 0, 0.98, 0.14) ||
            near_bone(x, z, 0.19, 1.38, 0.27, 0.82, 0.05) ||
            near_bone(x, z, 0.09, 0.95, 0.12, 0.07, 0.07);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/mrpt/simplemap_recorder.h"
+#include "kernel/base/quick_math.h"
 #include "scripting/trajectory/trajectory.h"
 
 namespace rubble {
@@ -13,7 +14,7 @@ constexpr double kUnknownFlight = 60;           // of a path into a void without
 constexpr double kDegrees = 57.29577951308232;  // of a radian
 
 double angle_between(const Quat& a, const Quat& b) {
-  return 2 * std::acos(std::min(1.0, std::fabs((a.conjugate() * b).w)));
+  return 2 * quick::acos(std::min(1.0, std::fabs((a.conjugate() * b).w)));
 }
 
 // A path into a void is known only when there is a pile.

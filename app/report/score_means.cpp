@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/report/html_text.h"
+#include "kernel/base/quick_math.h"
 #include "kernel/base/tables/text_table.h"
 
 namespace rubble {
@@ -51,7 +52,7 @@ std::string rounded(double value, double scale) {
   if (!(scale > 0)) {
     std::snprintf(text, sizeof text, "%.6g", value);
   } else {
-    const int decimals = 1 - int(std::floor(std::log10(scale)));
+    const int decimals = 1 - int(std::floor(quick::log10(scale)));
     std::snprintf(text, sizeof text, "%.*f", std::clamp(decimals, 0, 12), value);
   }
   return text;

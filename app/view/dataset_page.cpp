@@ -17,6 +17,7 @@
 #include "io/playback/recorded_picture.h"
 #include "io/voids/void_files.h"
 #include "kernel/base/error.h"
+#include "kernel/base/quick_math.h"
 
 namespace rubble {
 namespace {
@@ -41,7 +42,7 @@ PackedMesh pick_surface(const TriangleMesh& mesh, std::size_t surface) {
 }
 
 // As the eye sees an albedo on a screen.
-double to_screen(float linear) { return std::pow(std::max(0.0, double(linear)), 1 / 2.2); }
+double to_screen(float linear) { return quick::pow(std::max(0.0, double(linear)), 1 / 2.2); }
 
 // Columns one after another, as three.js has a matrix.
 void add_matrix(std::vector<float>& values, const PileModel::Piece& piece) {

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "io/image/lettering.h"
+#include "kernel/base/quick_math.h"
 
 namespace rubble {
 namespace {
@@ -30,7 +31,7 @@ cv::Mat depth_pane(const Frame& frame) {
   for (int i = 0; i < width * height; ++i) {
     const float depth = frame.depth[std::size_t(i)];
     const bool seen = std::isfinite(depth) && depth > 0;
-    const double share = seen ? std::log(depth / kNear) / std::log(kFar / kNear) : 1;
+    const double share = seen ? quick::log(depth / kNear) / quick::log(kFar / kNear) : 1;
     levels.data[i] = std::uint8_t(255 * (1 - std::clamp(share, 0.0, 1.0)));
     nothing.data[i] = seen ? 0 : 255;
   }

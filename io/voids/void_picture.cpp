@@ -6,6 +6,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "kernel/base/quick_math.h"
+
 namespace rubble {
 namespace {
 
@@ -91,7 +93,7 @@ class Sheet {
 
   // With an empty label it is small and thin.
   void arrow(double x, double y, double dx, double dy, const std::string& label) {
-    const double length = std::hypot(dx, dy), reach = label.empty() ? 16 : 40;
+    const double length = quick::hypot(dx, dy), reach = label.empty() ? 16 : 40;
     const int width = label.empty() ? 1 : 2;
     if (x < 0 || y < 0 || x >= cells_.cols || y >= cells_.rows) return;
     const cv::Point tip = place(x, y);

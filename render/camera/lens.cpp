@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
 
 namespace rubble {
 
@@ -68,7 +69,7 @@ std::optional<PixelPoint> Lens::project(const Vec3& p) const {
   PixelPoint at;
   if (k_.lens == LensModel::fisheye) {
     const double side = std::sqrt(p.x * p.x + p.y * p.y);
-    const double theta = std::atan2(side, p.z);
+    const double theta = quick::atan2(side, p.z);
     if (theta > fold_ || (side == 0 && p.z <= 0)) return std::nullopt;
     const double scale = side > 0 ? radial(theta) / side : 0;
     at = {p.x * scale, p.y * scale};
@@ -101,8 +102,8 @@ std::optional<Vec3> Lens::unfold(double x, double y) const {
   const std::optional<double> theta = invert_radial(distorted);
   if (!theta) return std::nullopt;
   if (distorted == 0) return Vec3(0, 0, 1);
-  const double side = std::sin(*theta) / distorted;
-  return Vec3(x * side, y * side, std::cos(*theta));
+  const double side = quick::sin(*theta) / distorted;
+  return Vec3(x * side, y * side, quick::cos(*theta));
 }
 
 // The radial part alone gives the start; then Newton's method in two dimensions.

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
 #include "render/materials/surface_appearance.h"
 #include "render/surface/scalar_surface.h"
 
@@ -92,7 +93,7 @@ void fill_surface_appearances(FrameBlock& block, int texture_size) {
     set(block.looks[i * 4 + 2], Vec3f(l.accent),
         std::floor(255 * l.reflectance + 0.5f) + 0.99f * l.roughness);
     set(block.looks[i * 4 + 3], {float(l.pattern), l.dust, l.variation},
-        std::log2(float(texture_size) / l.tile));
+        quick::log2(float(texture_size) / l.tile));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
 
 namespace rubble {
 
@@ -34,7 +35,7 @@ Vec3f white_balance(const LightSet& set) {
   const float bright = grey_of(light);
   if (bright <= 0) return {1, 1, 1};
   // Less at dusk, which is to look blue: 0.75 in daylight, 0.35 at 10 lx.
-  const float adapted = std::clamp(0.35f + 0.1f * std::log10(bright * 100), 0.35f, 0.75f);
+  const float adapted = std::clamp(0.35f + 0.1f * quick::log10(bright * 100), 0.35f, 0.75f);
   const auto gain = [&](float c) { return 1 / (1 + adapted * (c / bright - 1)); };
   const Vec3f gains(gain(light.x), gain(light.y), gain(light.z));
   return gains * (1 / grey_of(gains));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/base/quick_math.h"
 #include "render/materials/tile_noise.h"
 
 namespace rubble {
@@ -61,7 +62,7 @@ GroundMap make_ground_map(const PreparedScene& scene) {
     for (int i = 0; i < kSide; ++i) {
       const std::size_t at = std::size_t(j * kSide + i);
       const float tone = tone_at(map.x + from_texel(i) * map.reach, map.y + from_texel(j) * map.reach);
-      map.texels[at * 2] = std::uint8_t(std::lround(255 * (1 - std::exp(-cover[at]))));
+      map.texels[at * 2] = std::uint8_t(std::lround(255 * (1 - quick::exp(-cover[at]))));
       map.texels[at * 2 + 1] = std::uint8_t(std::lround(255 * std::clamp(tone, 0.0f, 1.0f)));
     }
   }

@@ -2,26 +2,30 @@
 
 #include <algorithm>
 
-#include "render/geometry/ray_scene_embree.h"
 #include "render/materials/glass.h"
 
 namespace rubble {
 
 namespace {
 
-constexpr unsigned kResting = EmbreeTree::kResting;
-
-void place(RTCGeometry instance, const float (&columns)[12]) {
-  rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+// Farthest from the origin that anything but the ground is; unit: m.
+double find_reach(const PreparedScene& scene) {
+  double reach = 1;
+  for (const PlacedMesh& piece : scene.placed)
+    if (piece.id != kGroundId) reach = std::max(reach, norm(Vec3(piece.centre)) + double(piece.radius));
+  if (!scene.bounds.empty()) reach = std::max({reach, norm(scene.bounds.min), norm(scene.bounds.max)});
+  return reach;
 }
+
+RayTree::Line line_of(const RayScene::Ray& ray) { return {ray.from, ray.direction, ray.nearest, ray.farthest, 0}; }
 
 }  // namespace
 
 RayScene::RayScene(const PreparedScene& scene, Detail detail, Part part)
-    : scene_(scene), detail_(detail), part_(part), embree_(std::make_unique<Embree>()) {
+    : scene_(scene), detail_(detail), part_(part), tree_(find_reach(scene)) {
   add_resting();
   add_moving();
-  embree_->commit();
+  tree_.commit();
   moment_ = scene.moment;
 }
 
@@ -35,131 +39,127 @@ bool RayScene::has(const PreparedTriangle& triangle) const {
   return part_ == Part::all || (triangle.material == glass_appearance()) == (part_ == Part::glass);
 }
 
+RayScene::MeshBlocks& RayScene::blocks_of(std::uint32_t number) {
+  const auto [found, is_new] = meshes_.try_emplace(number);
+  MeshBlocks& blocks = found->second;
+  const PreparedMesh& mesh = scene_.meshes[number];
+  if (!is_new || (part_ == Part::glass && !mesh.glass)) return blocks;
+  const PreparedLevel& level = level_of(mesh);
+  for (std::uint32_t t = level.first_triangle; t < level.first_triangle + level.triangle_count; ++t)
+    if (has(mesh.triangles[t])) blocks.sources.push_back(t);
+  blocks.order = order_blocks(std::uint32_t(blocks.sources.size()), [&](std::uint32_t t) {
+    const auto& v = mesh.triangles[blocks.sources[t]].vertices;
+    return std::array<Vec3f, 3>{mesh.vertices[v[0]].position, mesh.vertices[v[1]].position, mesh.vertices[v[2]].position};
+  });
+  return blocks;
+}
+
 void RayScene::add_resting() {
+  std::vector<TriangleBlock> blocks;
   std::vector<Vec3f> positions;
-  std::vector<std::uint32_t> indices;
-  std::size_t vertices = 0, triangles = 0;
-  for (const PlacedMesh& piece : scene_.placed) {
-    const PreparedMesh& mesh = scene_.meshes[piece.mesh];
-    if (part_ == Part::glass && !mesh.glass) continue;
-    triangles += level_of(mesh).triangle_count;
-    if (!piece.moves) vertices += mesh.vertices.size();
-  }
-  positions.reserve(vertices), indices.reserve(3 * triangles), triangles_.reserve(triangles);
   for (std::uint32_t i = 0; i < scene_.placed.size(); ++i) {
     const PlacedMesh& piece = scene_.placed[i];
     if (piece.moves) continue;
     const PreparedMesh& mesh = scene_.meshes[piece.mesh];
-    if (part_ == Part::glass && !mesh.glass) continue;
-    const PreparedLevel& level = level_of(mesh);
-    const std::uint32_t base = std::uint32_t(positions.size());
+    const MeshBlocks& of_mesh = blocks_of(piece.mesh);
+    if (of_mesh.sources.empty()) continue;
+    positions.clear();
     for (const PreparedVertex& v : mesh.vertices)
       positions.push_back(Vec3f(piece.world_from_mesh * (Vec3(v.position) * piece.scale)));
-    for (std::uint32_t t = 0; t < level.triangle_count; ++t) {
-      if (!has(mesh.triangles[level.first_triangle + t])) continue;
-      triangles_.push_back({i, level.first_triangle + t});
-      for (std::uint32_t v : mesh.triangles[level.first_triangle + t].vertices)
-        indices.push_back(base + v);
-    }
+    tree_.append(
+        of_mesh.order,
+        [&](std::uint32_t t) {
+          const auto& v = mesh.triangles[of_mesh.sources[t]].vertices;
+          return std::array<Vec3f, 3>{positions[v[0]], positions[v[1]], positions[v[2]]};
+        },
+        std::uint32_t(triangles_.size()), blocks);
+    for (const std::uint32_t t : of_mesh.sources) triangles_.push_back({i, t});
   }
-  const bool alone = std::none_of(scene_.placed.begin(), scene_.placed.end(), [](const PlacedMesh& p) { return p.moves; });
-  if (alone) return embree_->attach(embree_->scene, positions, indices.data(), indices.size() / 3);
-  embree_->resting = embree_->new_scene();
-  embree_->attach(embree_->resting, positions, indices.data(), indices.size() / 3);
-  rtcCommitScene(embree_->resting);
-  constexpr float kIdentity[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
-  const RTCGeometry instance = embree_->attach_instance(embree_->resting, kResting);
-  rubble::place(instance, kIdentity);
-  rtcCommitGeometry(instance);
-}
-
-void* RayScene::mesh_scene(std::uint32_t mesh) {
-  RTCScene& of_mesh = embree_->meshes[mesh];
-  if (of_mesh) return of_mesh;
-  of_mesh = embree_->new_scene();
-  const PreparedMesh& prepared = scene_.meshes[mesh];
-  const PreparedLevel& level = level_of(prepared);
-  std::vector<Vec3f> positions;
-  std::vector<std::uint32_t> indices;
-  for (const PreparedVertex& v : prepared.vertices) positions.push_back(v.position);
-  for (std::uint32_t t = 0; t < level.triangle_count; ++t) {
-    const PreparedTriangle& triangle = prepared.triangles[level.first_triangle + t];
-    if (has(triangle)) indices.insert(indices.end(), triangle.vertices.begin(), triangle.vertices.end());
-  }
-  embree_->attach(of_mesh, positions, indices.data(), indices.size() / 3);
-  rtcCommitScene(of_mesh);
-  return of_mesh;
+  tree_.parts().emplace_back().mesh = tree_.add_mesh(blocks);
 }
 
 void RayScene::add_moving() {
+  std::map<std::uint32_t, double> smallest_scales;
+  for (const PlacedMesh& piece : scene_.placed) {
+    double& smallest = smallest_scales.try_emplace(piece.mesh, piece.scale).first->second;
+    if (piece.moves) smallest = std::min(smallest, piece.scale);
+  }
   for (std::uint32_t i = 0; i < scene_.placed.size(); ++i) {
     const PlacedMesh& piece = scene_.placed[i];
-    const PreparedMesh& mesh = scene_.meshes[piece.mesh];
-    if (!piece.moves || (part_ == Part::glass && !mesh.glass)) continue;
-    Mover mover;
-    mover.placed = i;
-    mover.first_triangle = std::uint32_t(triangles_.size());
-    const PreparedLevel& level = level_of(mesh);
-    for (std::uint32_t t = 0; t < level.triangle_count; ++t)
-      if (has(mesh.triangles[level.first_triangle + t])) triangles_.push_back({i, level.first_triangle + t});
-    // Its number there: one more than its index among the movers.
-    mover.geometry = embree_->attach_instance(static_cast<RTCScene>(mesh_scene(piece.mesh)),
-                                              kResting + 1 + unsigned(movers_.size()));
-    place(mover);
-    movers_.push_back(mover);
+    if (!piece.moves) continue;
+    MeshBlocks& blocks = blocks_of(piece.mesh);
+    if (blocks.sources.empty()) continue;
+    if (blocks.in_tree == RayTree::kNone) {
+      const PreparedMesh& mesh = scene_.meshes[piece.mesh];
+      blocks.in_tree = tree_.add_mesh(
+          blocks.order,
+          [&](std::uint32_t t) {
+            const auto& v = mesh.triangles[blocks.sources[t]].vertices;
+            return std::array<Vec3f, 3>{mesh.vertices[v[0]].position, mesh.vertices[v[1]].position, mesh.vertices[v[2]].position};
+          },
+          smallest_scales.at(piece.mesh));
+    }
+    RayTree::Part& part = tree_.parts().emplace_back();
+    part.first_id = std::uint32_t(triangles_.size());
+    for (const std::uint32_t t : blocks.sources) triangles_.push_back({i, t});
+    movers_.push_back(i);
+    place(movers_.size() - 1);
   }
 }
 
-void RayScene::place(const Mover& mover) {
-  const PlacedMesh& piece = scene_.placed[mover.placed];
-  const Mat3 turn = piece.world_from_mesh.rotation.matrix() * piece.scale;
-  float columns[12];
-  for (int c = 0; c < 3; ++c)
-    for (int r = 0; r < 3; ++r) columns[c * 3 + r] = float(turn.rows[std::size_t(r)][c]);
-  for (int r = 0; r < 3; ++r) columns[9 + r] = float(piece.world_from_mesh.translation[r]);
-  rubble::place(mover.geometry, columns);
-  if (piece.there)
-    rtcEnableGeometry(mover.geometry);
-  else
-    rtcDisableGeometry(mover.geometry);
-  rtcCommitGeometry(mover.geometry);
+void RayScene::place(std::size_t mover) {
+  const PlacedMesh& piece = scene_.placed[movers_[mover]];
+  RayTree::Part& part = tree_.parts()[1 + mover];
+  part.mesh = piece.there ? meshes_.at(piece.mesh).in_tree : RayTree::kNone;
+  part.scale = piece.scale;
+  part.first = part.last = piece.world_from_mesh;
 }
 
 void RayScene::follow() {
   if (moment_ == scene_.moment) return;
   moment_ = scene_.moment;
-  for (const Mover& mover : movers_) place(mover);
-  embree_->commit();
+  for (std::size_t i = 0; i < movers_.size(); ++i) place(i);
+  tree_.commit();
 }
 
-RayScene::Met RayScene::met_by(std::uint32_t primitive, std::uint32_t instance,
-                               const Vec3f& normal) const {
-  if (instance == RTC_INVALID_GEOMETRY_ID || instance == kResting) return {primitive, normal};
-  const Mover& mover = movers_[instance - kResting - 1];
-  // Embree gives the normal in the frame of the mesh.
-  return {primitive + mover.first_triangle,
-          Vec3f(scene_.placed[mover.placed].world_from_mesh.rotation.rotate(Vec3(normal)))};
-}
-
-RayScene::Hit RayScene::cast(const Vec3f& from, const Vec3f& d, float nearest,
-                             float farthest) const {
-  EmbreeRayContext context;
-  RTCRayHit query{};
-  query.ray = {from.x, from.y, from.z, nearest, d.x, d.y, d.z, 0, farthest, 0xffffffffu, 0, 0};
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  embree_intersect(embree_->scene, query, context);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  const Met met = met_by(query.hit.primID, query.hit.instID[0],
-                         {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
-  return {met.triangle, query.ray.tfar, dot(met.normal, d) > 0};
+RayScene::Hit RayScene::cast(const Vec3f& from, const Vec3f& d, float nearest, float farthest) const {
+  const RayTree::Hit hit = tree_.meet({from, d, nearest, farthest, 0});
+  return {hit.triangle, hit.distance, hit.back};
 }
 
 bool RayScene::blocked(const Vec3f& from, const Vec3f& d, float nearest, float farthest) const {
-  EmbreeRayContext context;
-  RTCRay ray = {from.x, from.y, from.z, nearest, d.x, d.y, d.z, 0, farthest, 0xffffffffu, 0, 0};
-  embree_occlude(embree_->scene, ray, context);
-  return ray.tfar < 0;
+  return tree_.hides({from, d, nearest, farthest, 0});
+}
+
+void RayScene::cast_many(const Ray* rays, std::size_t count, Order order, PreciseHit* hits) const {
+  const auto put = [&](std::size_t i, const RayTree::Hit& hit) {
+    hits[i] = {hit.triangle, hit.distance, hit.u, hit.v, hit.back};
+  };
+  if (order == Order::scattered) {
+    for (std::size_t i = 0; i < count; ++i) put(i, tree_.meet(line_of(rays[i])));
+    return;
+  }
+  for (std::size_t first = 0; first < count; first += RayTree::kPacket) {
+    const std::size_t of_packet = std::min(RayTree::kPacket, count - first);
+    RayTree::Line lines[RayTree::kPacket];
+    RayTree::Hit met[RayTree::kPacket];
+    for (std::size_t i = 0; i < of_packet; ++i) lines[i] = line_of(rays[first + i]);
+    tree_.meet_packet(lines, of_packet, met);
+    for (std::size_t i = 0; i < of_packet; ++i) put(first + i, met[i]);
+  }
+}
+
+void RayScene::blocked_many(const Ray* rays, std::size_t count, Order order, std::uint8_t* hidden) const {
+  if (order == Order::scattered) {
+    for (std::size_t i = 0; i < count; ++i) hidden[i] = tree_.hides(line_of(rays[i]));
+    return;
+  }
+  for (std::size_t first = 0; first < count; first += RayTree::kPacket) {
+    const std::size_t of_packet = std::min(RayTree::kPacket, count - first);
+    RayTree::Line lines[RayTree::kPacket];
+    for (std::size_t i = 0; i < of_packet; ++i) lines[i] = line_of(rays[first + i]);
+    tree_.hide_packet(lines, of_packet, hidden + first);
+  }
 }
 
 }  // namespace rubble

@@ -1,13 +1,15 @@
-// Ray casting against the pieces: what rests is one geometry, and each piece that moves is placed anew
-// when the scene has moved on. Internal to render/.
+// Ray casting against the pieces: what rests is one mesh, and each piece that moves is placed anew when the scene has
+// moved on. Hits have the same bits on every machine; of equally near ones that of the smallest triangle counts. Internal
+// to render/.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <map>
 #include <vector>
 
 #include "render/geometry/geometry.h"
+#include "render/geometry/ray_tree.h"
 
 namespace rubble {
 
@@ -40,7 +42,7 @@ class RayScene {
     float u = 0, v = 0;              // weights of the triangle's second and third corner
     bool back = false;               // from inside
   };
-  // Packets pay where neighbouring rays go the same way; elsewhere each ray goes alone.
+  // Packets pay where neighbouring rays go the same way; elsewhere each ray goes alone. The bits are the same.
   enum class Order { coherent, scattered };
 
   // The scene must outlive it.
@@ -61,27 +63,26 @@ class RayScene {
   const std::vector<Triangle>& triangles() const { return triangles_; }
 
  private:
-  struct Embree;
-  struct Mover;
-  // Of a hit: which triangle, and its normal in the world, of any length.
-  struct Met {
-    std::uint32_t triangle;
-    Vec3f normal;
+  // Of a mesh, what is cast against.
+  struct MeshBlocks {
+    std::vector<std::uint32_t> sources;  // triangles of the prepared mesh
+    BlockOrder order;                    // of `sources`
+    std::uint32_t in_tree = RayTree::kNone;  // of what moves
   };
-  Met met_by(std::uint32_t primitive, std::uint32_t instance, const Vec3f& normal) const;
   const PreparedLevel& level_of(const PreparedMesh& mesh) const;
   bool has(const PreparedTriangle& triangle) const;  // it is of the part
+  MeshBlocks& blocks_of(std::uint32_t mesh);
   void add_resting();
   void add_moving();
-  void* mesh_scene(std::uint32_t mesh);  // an Embree scene of that mesh alone
-  void place(const Mover& mover);
+  void place(std::size_t mover);
 
   const PreparedScene& scene_;
   Detail detail_;
   Part part_;
-  std::unique_ptr<Embree> embree_;
+  RayTree tree_;  // what rests is its first part, movers follow
+  std::map<std::uint32_t, MeshBlocks> meshes_;
   std::vector<Triangle> triangles_;
-  std::vector<Mover> movers_;
+  std::vector<std::uint32_t> movers_;  // placed meshes
   std::uint64_t moment_ = 0;  // of the scene when it was followed last
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
 
 namespace rubble {
 namespace {
@@ -67,7 +68,7 @@ void Beam::add_surfaces(const RayWorld::Ray& axis, const Air& air, Parts& parts)
     const RayWorld::Hit& hit = hits[i];
     if (hit.distance <= 0) continue;
     double light = double(hit.reflectance) * double(hit.cosine) / double(count);
-    if (!clear) light *= std::exp(-2 * air.optical_depth(axis.from, rays[i].direction, hit.distance));
+    if (!clear) light *= quick::exp(-2 * air.optical_depth(axis.from, rays[i].direction, hit.distance));
     parts.add(hit.distance, light / (hit.distance * hit.distance));
     parts.nearest = std::min(parts.nearest, hit.distance);
   }
@@ -79,7 +80,7 @@ void Beam::add_air(const RayWorld::Ray& axis, const Air& air, double random, Par
   const double last = parts.nearest, second = std::min(kFullOverlap, last);
   if (last <= kNoOverlap) return;
   std::array<double, kAirSteps + 1> edge{}, sum{};
-  const double growth = std::pow(last / second, 1.0 / (kAirSteps - 1));
+  const double growth = quick::pow(last / second, 1.0 / (kAirSteps - 1));
   edge[0] = kNoOverlap, edge[1] = second;
   for (std::size_t i = 2; i <= kAirSteps; ++i) edge[i] = edge[i - 1] * growth;
   double depth = air.optical_depth(axis.from, axis.direction, kNoOverlap);
@@ -89,7 +90,7 @@ void Beam::add_air(const RayWorld::Ray& axis, const Air& air, double random, Par
     const AirOnRay::Sample here = on_ray.at(r, -1);
     const double step = here.extinction * length;
     sum[i + 1] = sum[i] + portable::kPi * here.scattering * overlap(r) * length / (r * r) *
-                              std::exp(-2 * (depth + 0.5 * step));
+                              quick::exp(-2 * (depth + 0.5 * step));
     depth += step;
   }
   if (sum[kAirSteps] <= 0) return;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/base/quick_math.h"
+
 namespace rubble {
 namespace {
 
@@ -16,7 +18,7 @@ constexpr float kTrust = 0.02f;       // weight of such a probe against one outs
 void ProbeGrid::lay_out(Aabb box) {
   box.max.z = std::max(box.max.z, box.min.z + kLeastCell);
   const Vec3 edges = box.max - box.min;
-  const double cell = std::max(kLeastCell, std::cbrt(edges.x * edges.y * edges.z / kMostProbes));
+  const double cell = std::max(kLeastCell, quick::cbrt(edges.x * edges.y * edges.z / kMostProbes));
   origin_ = Vec3f(box.min);
   for (int i = 0; i < 3; ++i) {
     size_[i] = std::max(2, int(std::ceil(edges[i] / cell)) + 1);

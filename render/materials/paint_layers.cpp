@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/base/quick_math.h"
+
 namespace rubble {
 namespace {
 
@@ -12,7 +14,7 @@ constexpr std::size_t kMostBytes = std::size_t(512) << 20;  // of all images at 
 PatternImage resize(const PaintImage& image, int side, bool encoded) {
   if (side == image.side) return {side, image.texels};
   const TextureStack stack({{image.side, image.texels}}, {encoded});
-  if (side < image.side) return {side, stack.texels(0, int(std::lround(std::log2(image.side / side))))};
+  if (side < image.side) return {side, stack.texels(0, int(std::lround(quick::log2(double(image.side / side)))))};
   PatternImage out{side, {}};
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x)

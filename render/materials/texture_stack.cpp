@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "kernel/base/quick_math.h"
+
 namespace rubble {
 
 namespace {
@@ -43,7 +45,7 @@ std::vector<std::uint8_t> halve_encoded(const std::vector<std::uint8_t>& texels,
 }  // namespace
 
 float linear_from_srgb_code(float code) {
-  return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
+  return code <= 0.04045f ? code / 12.92f : quick::pow((code + 0.055f) / 1.055f, 2.4f);
 }
 
 float decode_srgb(std::uint8_t code) {
@@ -57,7 +59,7 @@ float decode_srgb(std::uint8_t code) {
 
 std::uint8_t encode_srgb(float linear) {
   const float x = std::clamp(linear, 0.0f, 1.0f);
-  const float code = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
+  const float code = x <= 0.0031308f ? 12.92f * x : 1.055f * quick::pow(x, 1 / 2.4f) - 0.055f;
   return std::uint8_t(code * 255 + 0.5f);
 }
 
@@ -65,7 +67,7 @@ TextureStack::TextureStack(const std::vector<PatternImage>& patterns)
     : TextureStack(patterns, std::vector<bool>(patterns.size(), false)) {}
 
 TextureStack::TextureStack(const std::vector<PatternImage>& patterns, const std::vector<bool>& encoded)
-    : size_(patterns.front().size), levels_(int(std::lround(std::log2(size_))) + 1) {
+    : size_(patterns.front().size), levels_(int(std::lround(quick::log2(double(size_)))) + 1) {
   for (std::size_t i = 0; i < patterns.size(); ++i) {
     texels_.push_back(patterns[i].texels);
     for (int size = size_; size > 1; size /= 2)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/base/quick_math.h"
+
 
 namespace rubble {
 
@@ -24,7 +26,7 @@ Vec3f lamp_glow(const AirLamp& lamp, const Scatterer& air, const Vec3f& p, const
   const Vec3f from = p - lamp.position;
   const float d2 = std::max(dot(from, from), lamp.size2), d = std::sqrt(d2);
   const float x = (1 - dot(from, lamp.axis) / d) * lamp.cone;
-  const float strength = std::exp2(-x * x) * float(std::exp(-depth_to_p)) / d2;
+  const float strength = quick::exp2(-x * x) * float(quick::exp(-depth_to_p)) / d2;
   return lamp.colour * (strength * air.phase(double(-dot(from, direction) / d)));
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kernel/base/parallel.h"
+#include "kernel/base/quick_math.h"
 #include "kernel/base/random.h"
 
 namespace rubble {
@@ -18,7 +19,7 @@ constexpr std::size_t kPerJob = 20000;  // drops
 std::size_t draw_count(double mean, RandomStream& random) {
   if (mean > 100) return std::size_t(std::max(0.0, std::floor(mean + std::sqrt(mean) * random.normal() + 0.5)));
   std::size_t count = 0;
-  for (double product = random.uniform(), least = std::exp(-mean); product > least; product *= random.uniform()) ++count;
+  for (double product = random.uniform(), least = quick::exp(-mean); product > least; product *= random.uniform()) ++count;
   return count;
 }
 

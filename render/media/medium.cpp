@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "kernel/base/quick_math.h"
 #include "kernel/base/random.h"
 
 namespace rubble {
@@ -37,7 +38,7 @@ float block_noise(const float* block, float x, float y, float z) {
 double DustPuff::at(const Vec3& p) const {
   const Vec3 d = p - centre;
   const double q = dot(d, d) / (deviation * deviation);
-  return q < kWidest * kWidest ? extinction * std::exp(-0.5 * q) : 0;
+  return q < kWidest * kWidest ? extinction * quick::exp(-0.5 * q) : 0;
 }
 
 double DustPuff::optical_depth(const Vec3& from, const Vec3& direction, double near,
@@ -49,8 +50,8 @@ double DustPuff::optical_depth(const Vec3& from, const Vec3& direction, double n
   if (aside2 > kWidest * kWidest * s * s) return 0;
   const double low = (near + along) / s, high = (far + along) / s;
   if (low > kWidest || high < -kWidest) return 0;
-  return extinction * std::exp(-0.5 * aside2 / (s * s)) * s * kRootHalfPi *
-         (std::erf(high * kRootHalf) - std::erf(low * kRootHalf));
+  return extinction * quick::exp(-0.5 * aside2 / (s * s)) * s * kRootHalfPi *
+         (quick::erf(high * kRootHalf) - quick::erf(low * kRootHalf));
 }
 
 bool Air::homogeneous() const {
@@ -59,7 +60,7 @@ bool Air::homogeneous() const {
 
 double Air::fog(const Vec3& p) const {
   const bool falls = spec_.fog_height > 0 && p.z > 0;
-  return falls ? spec_.fog_density * std::exp(-p.z / spec_.fog_height) : spec_.fog_density;
+  return falls ? spec_.fog_density * quick::exp(-p.z / spec_.fog_height) : spec_.fog_density;
 }
 
 // exp(-z/h) along a straight line is an exponential in the distance; below z = 0 it is constant.
@@ -76,8 +77,8 @@ double Air::fog_depth(const Vec3& from, const Vec3& direction, double distance) 
     z0 = std::max(from.z, 0.0);
   }
   const double x = slope * above / h;
-  const double mean = std::fabs(x) < 1e-5 ? 1 - 0.5 * x : -std::expm1(-x) / x;
-  return density * (low + above * std::exp(-z0 / h) * mean);
+  const double mean = std::fabs(x) < 1e-5 ? 1 - 0.5 * x : -quick::expm1(-x) / x;
+  return density * (low + above * quick::exp(-z0 / h) * mean);
 }
 
 double Air::billows(const Vec3& p) const {
@@ -191,9 +192,9 @@ void Medium::add_burst(std::uint64_t burst, double seconds, std::vector<DustPuff
   };
   Vec3 start;
   for (int i = 0; i < 3; ++i) start[i] = within(dust.position[i], dust.bounds[i]);
-  const double left = std::exp2(-age / dust.half_life) * (1 - age / gone) *
-                      (1 - std::exp(-age / kRiseTime));
-  const double thrown = dust.speed * kThrowTime * (1 - std::exp(-age / kThrowTime));
+  const double left = quick::exp2(-age / dust.half_life) * (1 - age / gone) *
+                      (1 - quick::exp(-age / kRiseTime));
+  const double thrown = dust.speed * kThrowTime * (1 - quick::exp(-age / kThrowTime));
   for (int i = 0; i < kPuffs; ++i) {
     Vec3 throw_out = random.direction() * random.uniform(0.2, 1);
     throw_out.z = std::fabs(throw_out.z) * 0.6;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
 #include "render/media/medium.h"
 
 namespace rubble {
@@ -16,14 +17,14 @@ constexpr int kDirections = 256, kSteps = 24;
 // d(way) / distance^2 = da / sin(angle at x).
 double glow_from(const Vec3f& x, const Vec3f& w, float cone, double cosine) {
   const double along = std::clamp(double(dot(x, w)), -1.0, 1.0), sine = std::sqrt(std::max(1 - along * along, 1e-6));
-  const double whole = portable::kPi - std::acos(-along);  // of the angle, as the way becomes infinite
+  const double whole = portable::kPi - quick::acos(-along);  // of the angle, as the way becomes infinite
   const Vec3f across = (w - x * float(along)) * float(1 / sine);
   double sum = 0;
   for (int i = 0; i < kSteps; ++i) {
     const portable::SinCos a = portable::sincos(whole * (i + 0.5) / kSteps);
     const Vec3f from_lamp = x * float(a.cos) + across * float(a.sin);
     const double off = double((1 - from_lamp.z) * cone);
-    sum += std::exp2(-off * off) * phase_function(cosine, double(-dot(from_lamp, w)));
+    sum += quick::exp2(-off * off) * phase_function(cosine, double(-dot(from_lamp, w)));
   }
   return sum * whole / (kSteps * sine);
 }

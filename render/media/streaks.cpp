@@ -5,6 +5,7 @@
 
 #include "kernel/base/parallel.h"
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
 
 namespace rubble {
 
@@ -26,7 +27,7 @@ struct Shape {
   }
   double cover(double x, double y) const {
     const double t = square > 0 ? std::clamp(((x - u) * du + (y - v) * dv) / square, 0.0, 1.0) : 0;
-    return std::clamp((half - std::hypot(x - u - t * du, y - v - t * dv)) / edge + 0.5, 0.0, 1.0);
+    return std::clamp((half - quick::hypot(x - u - t * du, y - v - t * dv)) / edge + 0.5, 0.0, 1.0);
   }
 };
 

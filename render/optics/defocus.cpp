@@ -5,6 +5,7 @@
 
 #include "kernel/base/math.h"
 #include "kernel/base/parallel.h"
+#include "kernel/base/quick_math.h"
 
 namespace rubble {
 
@@ -53,7 +54,7 @@ class Spreader {
     }
     for (int y = 0; y <= 2 * kReach; ++y)
       for (int x = 0; x <= 2 * kReach; ++x)
-        distance_.push_back(std::hypot(float(x - kReach), float(y - kReach)));
+        distance_.push_back(quick::hypot(float(x - kReach), float(y - kReach)));
     find_largest();
   }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "kernel/base/parallel.h"
+#include "kernel/base/quick_math.h"
 #include "render/optics/lens_surface.h"
 
 namespace rubble {
@@ -43,7 +44,7 @@ float sample_cubic(const LinearImage& image, const Cubic& u, const Cubic& v, std
 }
 
 double farthest_corner(const Intrinsics& k) {
-  return std::hypot(std::max(k.cx, k.width - 1 - k.cx), std::max(k.cy, k.height - 1 - k.cy));
+  return quick::hypot(std::max(k.cx, k.width - 1 - k.cx), std::max(k.cy, k.height - 1 - k.cy));
 }
 
 }  // namespace
@@ -53,7 +54,7 @@ LinearImage spread_glare(const LinearImage& image, int threads) {
   std::fill(sum.rgb.begin(), sum.rgb.end(), 0.0f);
   double reached = 0;  // variance of `level`
   for (int i = 0; i < kOctaves; ++i) {
-    const double sigma = kInnermost * image.width * std::exp2(i);
+    const double sigma = kInnermost * image.width * quick::exp2(double(i));
     const int passes = i == 0 ? 3 : 2;  // what comes after is smooth already
     blur_boxes(level, (sigma * sigma - reached) / passes, passes, threads);
     reached = sigma * sigma;

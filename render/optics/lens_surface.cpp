@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "kernel/base/quick_math.h"
 #include "kernel/base/random.h"
 
 namespace rubble {
@@ -28,7 +29,7 @@ void for_disc(const LinearImage& image, double cx, double cy, double radius, con
   const int left = std::max(0, int(std::ceil(cx - radius)));
   for (int y = top; y < image.height && y <= cy + radius; ++y)
     for (int x = left; x < image.width && x <= cx + radius; ++x)
-      if (const double d = std::hypot(x - cx, y - cy) / radius; d < 1) visit(x, y, d);
+      if (const double d = quick::hypot(x - cx, y - cy) / radius; d < 1) visit(x, y, d);
 }
 
 std::size_t place(const LinearImage& image, int x, int y) {
@@ -49,7 +50,7 @@ LensSurface::LensSurface(int width, int height, double dirt, int drops, std::uin
     Spot spot;
     spot.x = random.uniform() * width, spot.y = random.uniform() * height;
     // Radii evenly over their logarithm: many small ones, few large ones.
-    spot.radius = width * smallest * std::pow(largest / smallest, random.uniform());
+    spot.radius = width * smallest * quick::pow(largest / smallest, random.uniform());
     spot.opacity = random.uniform(0.3, 1);
     return spot;
   };

@@ -7,31 +7,48 @@
 #include <utility>
 #include <vector>
 
-#include "render/geometry/embree_tree.h"
+#include "render/geometry/ray_tree.h"
 #include "render/materials/paint_layers.h"
 #include "render/materials/surface_appearance.h"
 
 namespace rubble {
 namespace {
 
-constexpr unsigned kResting = EmbreeTree::kResting;
+constexpr double kTravel = 20;  // how far from its place in the scene what moves may go; unit: m
 
-RTCQuaternionDecomposition decompose(const Pose& pose, float scale) {
-  RTCQuaternionDecomposition d;
-  rtcInitQuaternionDecomposition(&d);
-  rtcQuaternionDecompositionSetScale(&d, scale, scale, scale);
-  const Quat& q = pose.rotation;
-  rtcQuaternionDecompositionSetQuaternion(&d, float(q.w), float(q.x), float(q.y), float(q.z));
-  const Vec3& t = pose.translation;
-  rtcQuaternionDecompositionSetTranslation(&d, float(t.x), float(t.y), float(t.z));
-  return d;
+// Farthest from the origin that anything is; unit: m.
+double find_reach(const Scene& scene) {
+  double reach = 1;
+  std::vector<double> radii;  // of the meshes
+  for (const auto& mesh : scene.meshes) {
+    radii.push_back(0);
+    for (const Vec3f& p : mesh->levels.front().positions) radii.back() = std::max(radii.back(), norm(Vec3(p)));
+  }
+  for (const SceneInstance& piece : scene.instances)
+    reach = std::max(reach, norm(piece.world_from_body.translation) + radii.at(piece.mesh) * double(piece.scale));
+  for (const std::uint32_t i : scene.motion.moving) {
+    const SceneInstance& piece = scene.instances[i];
+    reach = std::max(reach, kTravel + norm(piece.world_from_body.translation) + radii.at(piece.mesh) * double(piece.scale));
+  }
+  return reach;
+}
+
+TriangleCorners corners_of(const TriangleMesh& mesh) {
+  return [&mesh](std::uint32_t t) {
+    const auto& v = mesh.triangles[t];
+    return std::array<Vec3f, 3>{mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
+  };
 }
 
 }  // namespace
 
-struct RayWorld::Tree : EmbreeTree {
+struct RayWorld::Tree {
+  // Parts of the tree: what rests, movers that stand, and the others.
+  static constexpr std::uint32_t kResting = 0, kStanding = 1, kMovers = 2;
+
+  explicit Tree(const Scene& from) : tree(find_reach(from)) {}
+
   struct Mover {
-    RTCGeometry geometry = nullptr;  // owned by the tree
     SceneInstance instance;
     Quat rotation;  // at the first time of the span
     bool stands = false;  // it has not left its place, and is part of `standing`
@@ -47,31 +64,33 @@ struct RayWorld::Tree : EmbreeTree {
     std::vector<std::uint32_t> ends;   // of each instance, one past its last triangle
     std::vector<std::int32_t> pieces;  // its id
   };
-  Merged resting_mesh, standing_mesh;
-  RTCScene standing_scene = nullptr;  // of movers that have not left their places; built anew when one does
+  Merged resting_mesh, standing_mesh;  // standing: movers that have not left their places; built anew when one does
   std::vector<Mover> movers;
   std::vector<std::shared_ptr<const SceneMesh>> scene_meshes;
   SceneMotion motion;
   bool ground = true;
 
-  void attach(RTCScene to, const std::vector<Vec3f>& positions,
-              const std::vector<std::array<std::uint32_t, 3>>& triangles) const {
-    static_assert(sizeof(triangles.front()) == 3 * sizeof(std::uint32_t));
-    EmbreeTree::attach(to, positions, triangles.empty() ? nullptr : triangles.front().data(), triangles.size());
-  }
-  ~Tree() {
-    if (standing_scene) rtcReleaseScene(standing_scene);
-  }
+  RayTree tree;
+  std::map<const TriangleMesh*, BlockOrder> orders;
+  std::map<std::uint32_t, std::uint32_t> meshes_in_tree;  // of those that move, by their numbers
+
   const std::vector<std::uint16_t>& looks_of(const TriangleMesh& mesh);
-  Merged merge(const std::vector<const SceneInstance*>& instances, RTCScene into);
+  const BlockOrder& order_of(const TriangleMesh& mesh);
+  // Puts instances into a part of the tree.
+  Merged merge(const std::vector<const SceneInstance*>& instances, std::uint32_t part);
   void add_resting(const Scene& from);
   void add_movers(const Scene& from);
-  void place_at_rest(RTCScene of, unsigned number);
   void stand_up(const std::vector<std::uint8_t>& stands);
-  void intersect(const Ray* rays, std::size_t count, double max_distance, RTCRayHit8& query) const;
-  const Merged* merged_of(unsigned instance) const;
-  std::int32_t piece_of(unsigned primitive, unsigned instance) const;
-  Hit read(unsigned primitive, unsigned instance, const Vec3f& normal, const Ray& ray, double t) const;
+  void meet(const Ray* rays, std::size_t count, double max_distance, RayTree::Hit* met) const {
+    RayTree::Line lines[kPacket];
+    for (std::size_t i = 0; i < count; ++i)
+      lines[i] = {Vec3f(rays[i].from), Vec3f(rays[i].direction), 0, float(max_distance), rays[i].time};
+    tree.meet_packet(lines, count, met);
+  }
+  const Merged* merged_of(std::uint32_t part) const;
+  std::uint32_t triangle_of(const RayTree::Hit& hit) const { return hit.triangle - tree.parts()[hit.part].first_id; }
+  std::int32_t piece_of(const RayTree::Hit& hit) const;
+  Hit read(const RayTree::Hit& hit, const Ray& ray) const;
   // Where a ray that has met something at `before` (negative: nothing) meets the ground first; negative: it does not.
   double meet_ground(const Ray& ray, double max_distance, double before) const {
     if (!ground || ray.direction.z >= 0 || ray.from.z <= 0) return -1;
@@ -80,32 +99,35 @@ struct RayWorld::Tree : EmbreeTree {
   }
 };
 
-RayWorld::Tree::Merged RayWorld::Tree::merge(const std::vector<const SceneInstance*>& instances, RTCScene into) {
-  Merged merged;
-  std::vector<Vec3f> positions;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  for (const SceneInstance* piece : instances) {
-    const TriangleMesh& mesh = scene_meshes.at(piece->mesh)->levels.front();
-    const auto base = std::uint32_t(positions.size());
-    for (const Vec3f& p : mesh.positions)
-      positions.push_back(Vec3f(piece->world_from_body * (Vec3(p) * double(piece->scale))));
-    for (const auto& t : mesh.triangles) triangles.push_back({base + t[0], base + t[1], base + t[2]});
-    const std::vector<std::uint16_t>& looks = looks_of(mesh);
-    merged.looks.insert(merged.looks.end(), looks.begin(), looks.end());
-    merged.ends.push_back(std::uint32_t(triangles.size()));
-    merged.pieces.push_back(std::int32_t(piece->id));
-  }
-  attach(into, positions, triangles);
-  return merged;
+const BlockOrder& RayWorld::Tree::order_of(const TriangleMesh& mesh) {
+  const auto [found, is_new] = orders.try_emplace(&mesh);
+  if (is_new) found->second = order_blocks(std::uint32_t(mesh.triangles.size()), corners_of(mesh));
+  return found->second;
 }
 
-// An instance in the world's own frame.
-void RayWorld::Tree::place_at_rest(RTCScene of, unsigned number) {
-  rtcCommitScene(of);
-  const RTCGeometry instance = attach_instance(of, number);
-  const RTCQuaternionDecomposition there = decompose({}, 1);
-  rtcSetGeometryTransformQuaternion(instance, 0, &there);
-  rtcCommitGeometry(instance);
+RayWorld::Tree::Merged RayWorld::Tree::merge(const std::vector<const SceneInstance*>& instances, std::uint32_t part) {
+  Merged merged;
+  std::vector<TriangleBlock> blocks;
+  std::vector<Vec3f> positions;
+  for (const SceneInstance* piece : instances) {
+    const TriangleMesh& mesh = scene_meshes.at(piece->mesh)->levels.front();
+    positions.clear();
+    for (const Vec3f& p : mesh.positions)
+      positions.push_back(Vec3f(piece->world_from_body * (Vec3(p) * double(piece->scale))));
+    tree.append(
+        order_of(mesh),
+        [&](std::uint32_t t) {
+          const auto& v = mesh.triangles[t];
+          return std::array<Vec3f, 3>{positions[v[0]], positions[v[1]], positions[v[2]]};
+        },
+        std::uint32_t(merged.looks.size()), blocks);
+    const std::vector<std::uint16_t>& looks = looks_of(mesh);
+    merged.looks.insert(merged.looks.end(), looks.begin(), looks.end());
+    merged.ends.push_back(std::uint32_t(merged.looks.size()));
+    merged.pieces.push_back(std::int32_t(piece->id));
+  }
+  tree.parts()[part].mesh = tree.add_mesh(blocks);
+  return merged;
 }
 
 void RayWorld::Tree::add_resting(const Scene& from) {
@@ -114,13 +136,8 @@ void RayWorld::Tree::add_resting(const Scene& from) {
   std::vector<const SceneInstance*> still;
   for (std::size_t i = 0; i < from.instances.size(); ++i)
     if (!moves[i]) still.push_back(&from.instances[i]);
-  if (from.motion.moving.empty()) {
-    resting_mesh = merge(still, scene);
-    return;
-  }
-  resting = new_scene();
-  resting_mesh = merge(still, resting);
-  place_at_rest(resting, kResting);
+  tree.parts().resize(kMovers);
+  resting_mesh = merge(still, kResting);
 }
 
 // stands: by mover.
@@ -130,35 +147,35 @@ void RayWorld::Tree::stand_up(const std::vector<std::uint8_t>& stands) {
     movers[i].stands = stands[i];
     if (!stands[i]) continue;
     standing.push_back(&movers[i].instance);
-    rtcDisableGeometry(movers[i].geometry);
+    tree.parts()[kMovers + i].mesh = RayTree::kNone;
   }
-  const unsigned number = kResting + 1 + unsigned(movers.size());
-  if (standing_scene) {
-    rtcDetachGeometry(scene, number);
-    rtcReleaseScene(standing_scene);
-  }
-  standing_scene = nullptr;
-  if (standing.empty()) return;
-  standing_scene = new_scene();
-  standing_mesh = merge(standing, standing_scene);
-  place_at_rest(standing_scene, number);
+  tree.drop_mesh(tree.parts()[kStanding].mesh);
+  standing_mesh = merge(standing, kStanding);
 }
 
 void RayWorld::Tree::add_movers(const Scene& from) {
+  std::map<std::uint32_t, double> smallest_scales;
   for (const std::uint32_t i : from.motion.moving) {
     const SceneInstance& piece = from.instances[i];
-    RTCScene& of_mesh = meshes[piece.mesh];
-    if (!of_mesh) {
+    double& smallest = smallest_scales.try_emplace(piece.mesh, double(piece.scale)).first->second;
+    smallest = std::min(smallest, double(piece.scale));
+  }
+  auto next_id = std::uint32_t(resting_mesh.looks.size());
+  for (const std::uint32_t i : from.motion.moving) {
+    const SceneInstance& piece = from.instances[i];
+    const auto [in_tree, is_new] = meshes_in_tree.try_emplace(piece.mesh);
+    if (is_new) {
       const TriangleMesh& mesh = from.meshes.at(piece.mesh)->levels.front();
-      of_mesh = new_scene();
-      attach(of_mesh, mesh.positions, mesh.triangles);
-      rtcCommitScene(of_mesh);
+      in_tree->second = tree.add_mesh(order_of(mesh), corners_of(mesh), smallest_scales.at(piece.mesh));
       mesh_looks[piece.mesh] = looks_of(mesh);
     }
-    const RTCGeometry geometry = attach_instance(of_mesh, kResting + 1 + unsigned(movers.size()));
-    rtcSetGeometryTimeStepCount(geometry, 2);
-    movers.push_back({geometry, piece, {}, false, {}});
+    RayTree::Part& part = tree.parts().emplace_back();
+    part.scale = double(piece.scale);
+    part.first_id = next_id;
+    next_id += std::uint32_t(mesh_looks.at(piece.mesh).size());
+    movers.push_back({piece, {}, false, {}});
   }
+  tree.parts()[kStanding].first_id = next_id;
 }
 
 // Of each triangle of a mesh: an index into all_surface_appearances(), after its end one into paint_reds.
@@ -181,45 +198,42 @@ const std::vector<std::uint16_t>& RayWorld::Tree::looks_of(const TriangleMesh& m
   return looks;
 }
 
-// normal: as Embree gives it, in the frame of the mesh.
-RayWorld::Hit RayWorld::Tree::read(unsigned primitive, unsigned instance, const Vec3f& normal,
-                                       const Ray& ray, double t) const {
-  Vec3 out(normal);
+RayWorld::Hit RayWorld::Tree::read(const RayTree::Hit& hit, const Ray& ray) const {
+  Vec3 out(hit.normal);
   std::uint16_t look = 0;
-  if (const Merged* at_rest = merged_of(instance)) {
-    look = at_rest->looks[primitive];
+  if (const Merged* at_rest = merged_of(hit.part)) {
+    look = at_rest->looks[triangle_of(hit)];
   } else {
-    const Mover& mover = movers[instance - kResting - 1];
+    const Mover& mover = movers[hit.part - kMovers];
     out = mover.rotation.rotate(out);
-    look = mesh_looks.at(mover.instance.mesh)[primitive];
+    look = mesh_looks.at(mover.instance.mesh)[triangle_of(hit)];
   }
   out = normalized(out);
   const double cosine = dot(out, ray.direction);
   const float up = float(cosine > 0 ? -out.z : out.z);
   const std::vector<SurfaceAppearance>& known = all_surface_appearances();
   const float red = look < known.size() ? mean_red_albedo(known[look], up) : paint_reds[look - known.size()];
-  return {t, float(std::fabs(cosine)), red, piece_of(primitive, instance)};
+  return {double(hit.distance), float(std::fabs(cosine)), red, piece_of(hit)};
 }
 
 // Null: a mover.
-const RayWorld::Tree::Merged* RayWorld::Tree::merged_of(unsigned instance) const {
-  if (instance == RTC_INVALID_GEOMETRY_ID || instance == kResting) return &resting_mesh;
-  return instance - kResting - 1 < movers.size() ? nullptr : &standing_mesh;
+const RayWorld::Tree::Merged* RayWorld::Tree::merged_of(std::uint32_t part) const {
+  return part == kResting ? &resting_mesh : part == kStanding ? &standing_mesh : nullptr;
 }
 
-std::int32_t RayWorld::Tree::piece_of(unsigned primitive, unsigned instance) const {
-  const Merged* const at_rest = merged_of(instance);
-  if (!at_rest) return std::int32_t(movers[instance - kResting - 1].instance.id);
-  const auto end = std::upper_bound(at_rest->ends.begin(), at_rest->ends.end(), primitive);
+std::int32_t RayWorld::Tree::piece_of(const RayTree::Hit& hit) const {
+  const Merged* const at_rest = merged_of(hit.part);
+  if (!at_rest) return std::int32_t(movers[hit.part - kMovers].instance.id);
+  const auto end = std::upper_bound(at_rest->ends.begin(), at_rest->ends.end(), triangle_of(hit));
   return at_rest->pieces[std::size_t(end - at_rest->ends.begin())];
 }
 
-RayWorld::RayWorld(const Scene& from) : tree_(std::make_unique<Tree>()) {
+RayWorld::RayWorld(const Scene& from) : tree_(std::make_unique<Tree>(from)) {
   Tree& t = *tree_;
   t.scene_meshes = from.meshes, t.motion = from.motion, t.ground = from.ground;
   t.add_resting(from);
   t.add_movers(from);
-  if (!moves()) t.commit();
+  if (!moves()) t.tree.commit();
 }
 
 RayWorld::~RayWorld() = default;
@@ -247,49 +261,26 @@ void RayWorld::span(std::int64_t from_ns, std::int64_t to_ns) {
     mover.spanned.emplace(begin[i], end[i]);
     if (mover.stands) continue;
     changed = true;
-    if (!begin[i] || !end[i]) {
-      rtcDisableGeometry(mover.geometry);
-      continue;
-    }
+    RayTree::Part& part = tree_->tree.parts()[Tree::kMovers + i];
+    part.mesh = RayTree::kNone;
+    if (!begin[i] || !end[i]) continue;
+    part.mesh = tree_->meshes_in_tree.at(mover.instance.mesh);
     Pose last = *end[i];  // the shorter way round
     const Quat &a = begin[i]->rotation, &b = last.rotation;
     if (a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z < 0) last.rotation = {-b.w, -b.x, -b.y, -b.z};
-    const RTCQuaternionDecomposition first = decompose(*begin[i], mover.instance.scale),
-                                     second = decompose(last, mover.instance.scale);
-    rtcSetGeometryTransformQuaternion(mover.geometry, 0, &first);
-    rtcSetGeometryTransformQuaternion(mover.geometry, 1, &second);
+    part.first = *begin[i], part.last = last;
     mover.rotation = begin[i]->rotation;
-    rtcEnableGeometry(mover.geometry);
-    rtcCommitGeometry(mover.geometry);
   }
-  if (changed) tree_->commit();
-}
-
-void RayWorld::Tree::intersect(const Ray* rays, std::size_t count, double max_distance, RTCRayHit8& query) const {
-  EmbreeRayContext context(true);
-  alignas(32) int valid[kPacket];
-  for (std::size_t i = 0; i < kPacket; ++i) {
-    valid[i] = i < count ? -1 : 0;
-    const Ray& ray = rays[std::min(i, count - 1)];
-    query.ray.org_x[i] = float(ray.from.x), query.ray.org_y[i] = float(ray.from.y);
-    query.ray.org_z[i] = float(ray.from.z), query.ray.dir_x[i] = float(ray.direction.x);
-    query.ray.dir_y[i] = float(ray.direction.y), query.ray.dir_z[i] = float(ray.direction.z);
-    query.ray.tnear[i] = 0, query.ray.tfar[i] = float(max_distance), query.ray.time[i] = ray.time;
-    query.ray.mask[i] = 0xffffffffu, query.ray.id[i] = 0, query.ray.flags[i] = 0;
-    query.hit.geomID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-  }
-  embree_intersect(scene, valid, query, context);
+  if (changed) tree_->tree.commit();
 }
 
 void RayWorld::cast(const Ray* rays, std::size_t count, double max_distance, Hit* hits) const {
-  RTCRayHit8 query;
-  tree_->intersect(rays, count, max_distance, query);
+  RayTree::Hit met[kPacket];
+  tree_->meet(rays, count, max_distance, met);
   for (std::size_t i = 0; i < count; ++i) {
+    const RayTree::Hit& hit = met[i];
     hits[i] = {};
-    if (query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID)
-      hits[i] = tree_->read(query.hit.primID[i], query.hit.instID[0][i],
-                            {query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]}, rays[i],
-                            double(query.ray.tfar[i]));
+    if (hit.triangle != RayTree::kNone) hits[i] = tree_->read(hit, rays[i]);
     const double ground = tree_->meet_ground(rays[i], max_distance, hits[i].distance);
     if (ground >= 0)
       hits[i] = {ground, float(-rays[i].direction.z), mean_red_albedo(all_surface_appearances().back(), 1), -1};
@@ -297,15 +288,16 @@ void RayWorld::cast(const Ray* rays, std::size_t count, double max_distance, Hit
 }
 
 void RayWorld::cast(const Ray* rays, std::size_t count, double max_distance, double* distances,
-                      std::int32_t* pieces) const {
-  RTCRayHit8 query;
-  tree_->intersect(rays, count, max_distance, query);
+                    std::int32_t* pieces) const {
+  RayTree::Hit met[kPacket];
+  tree_->meet(rays, count, max_distance, met);
   for (std::size_t i = 0; i < count; ++i) {
-    const bool met = query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-    distances[i] = met ? double(query.ray.tfar[i]) : -1;
+    const RayTree::Hit& hit = met[i];
+    const bool is_met = hit.triangle != RayTree::kNone;
+    distances[i] = is_met ? double(hit.distance) : -1;
     const double ground = tree_->meet_ground(rays[i], max_distance, distances[i]);
     if (ground >= 0) distances[i] = ground;
-    if (pieces) pieces[i] = met && ground < 0 ? tree_->piece_of(query.hit.primID[i], query.hit.instID[0][i]) : -1;
+    if (pieces) pieces[i] = is_met && ground < 0 ? tree_->piece_of(hit) : -1;
   }
 }
 

@@ -1,8 +1,8 @@
 // What rays of any sensor meet: the exact triangles of the pieces at their finest, and the ground z = 0.
 //
-// What moves is an instance in Embree's tree with its pose at two times; between them Embree moves it
-// along a straight line and a constant turn, so that each ray meets it where it is at the ray's own
-// time. Positions are single precision: near the pile a surface is within 1e-6 m of that of pile.stl.
+// Between two times what moves goes along a straight line with a constant turn, so that each ray meets it where it is at
+// the ray's own time. Positions are single precision: near the pile a surface is within 1e-6 m of that of pile.stl. Hits
+// have the same bits on every machine (geometry/ray_tree.h).
 #pragma once
 
 #include <cstddef>

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "kernel/base/parallel.h"
+#include "kernel/base/quick_math.h"
 
 namespace rubble {
 
@@ -138,7 +139,7 @@ class Denoiser {
             std::fabs(image_.distance[k] - image_.distance[i]) / reach +
             (k == i ? 0 : std::fabs(luminance_of(light_[k]) - grey) / noise);
         const float w =
-            kKernel[std::abs(dx)] * kKernel[std::abs(dy)] * std::exp(-std::min(exponent, 80.0f));
+            kKernel[std::abs(dx)] * kKernel[std::abs(dy)] * quick::exp(-std::min(exponent, 80.0f));
         sum += light_[k] * w, weights += w, squares += w * w * variance_[k];
       }
     }

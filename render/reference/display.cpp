@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "kernel/base/quick_math.h"
 #include "render/surface/scalar_surface.h"
 
 namespace rubble {
@@ -25,7 +26,7 @@ MeteredImage meter_image(const std::vector<float>& light, int width, int height,
       const float* p = &light[(std::size_t(v) * std::size_t(width) + std::size_t(u)) * 3];
       const float grey = 0.2126f * p[0] * gains.x + 0.7152f * p[1] * gains.y + 0.0722f * p[2] * gains.z;
       // Exactly black: beyond the edge of a lens.
-      out.stops.push_back(grey > 0 ? std::log2(std::max(grey, 1e-30f)) : -2000);
+      out.stops.push_back(grey > 0 ? quick::log2(std::max(grey, 1e-30f)) : -2000);
     }
   }
   return out;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
 #include "render/camera/projection.h"
 #include "render/geometry/glass_sheets.h"
 #include "render/media/air_volume.h"
@@ -236,7 +237,7 @@ bool Wave::reflect(std::uint32_t index, const Met& met) {
     }
     // Clean air veils what is far: the horizon has no edge.
     const float there = std::max(hit.distance - kVeilFrom, 0.0f);
-    const float veil = std::exp2(scene_.surrounded ? -there * 5.64e-4f
+    const float veil = quick::exp2(scene_.surrounded ? -there * 5.64e-4f
                                                    : -there * there * 4e-5f / (1 + there * 0.012f));
     if (veil < 1) {
       const Vec3f level = normalized(Vec3f(path.direction.x, path.direction.y, 0.02f));
@@ -362,9 +363,9 @@ void Wave::light_air_along(std::uint32_t index, float near, float far) {
     const Vec3f light = scene_.lights.place(i, *path.lamp, places);
     const float along = dot(light - path.from, path.direction);
     const float aside = std::max(distance(light, path.from + path.direction * along), 1e-3f);
-    const float first = std::atan2(near - along, aside), last = std::atan2(far - along, aside);
+    const float first = quick::atan2(near - along, aside), last = quick::atan2(far - along, aside);
     if (last - first < 1e-6f) continue;
-    const float off = aside * std::tan(first + (last - first) * u.x);
+    const float off = aside * quick::tan(first + (last - first) * u.x);
     const float at = std::clamp(along + off, near, far);
     const Vec3f p = path.from + path.direction * at;
     const Vec3f illuminance = scene_.lights.illuminance_from(i, *path.lamp, light, p);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "kernel/base/parallel.h"
+#include "kernel/base/quick_math.h"
 #include "render/sensors/noise_field.h"
 
 namespace rubble {
@@ -91,7 +92,7 @@ DepthSensor::Returns DepthSensor::trace_air(const DepthView& view, int u, int v,
     const double first = std::min(lit_from(view, seen), reach);
     depth = view.air.optical_depth(pose.translation, direction, first);
     // Each step is longer than the one before, as what comes back falls with the square of range.
-    const double growth = std::pow(reach / first, 1.0 / kAirSteps);
+    const double growth = quick::pow(reach / first, 1.0 / kAirSteps);
     double begin = first;
     const AirOnRay air(view.air, pose.translation, direction, first, reach);
     for (int i = 0; i < kAirSteps && growth > 1; ++i, begin *= growth) {
@@ -100,13 +101,13 @@ DepthSensor::Returns DepthSensor::trace_air(const DepthView& view, int u, int v,
       const double out2 = dot(from, from);
       const AirOnRay::Sample here = air.at(r, -dot(from, seen) / std::sqrt(out2));
       out.range[i] = 0.5 * (r + std::sqrt(out2));
-      out.part[i] = here.scattering * (end - begin) / out2 * std::exp(-2 * (depth + here.extinction * (r - begin)));
+      out.part[i] = here.scattering * (end - begin) / out2 * quick::exp(-2 * (depth + here.extinction * (r - begin)));
       depth += here.extinction * (end - begin);
     }
     out.sum_up();
   }
   if (!std::isnan(distance))
-    out.surface = reflectance_at(view, u, v) / kPi * cosine_at(view, u, v) * std::exp(-2 * depth) /
+    out.surface = reflectance_at(view, u, v) / kPi * cosine_at(view, u, v) * quick::exp(-2 * depth) /
                   (distance * distance);
   return out;
 }
@@ -155,7 +156,7 @@ float DepthSensor::measure_disparity(const DepthView& view, int u, int v) const 
     z = returns.middle * cosine, growth = 1;
   } else {
     if (std::isnan(distance) || !view.projected[i]) return kNone;
-    angle = std::acos(std::min(1.0, cosine_at(view, u, v)));
+    angle = quick::acos(std::min(1.0, cosine_at(view, u, v)));
     if (angle > kWidestAngle) return kNone;
     if (dice.uniform(i * 2 + 1) < 2 * other_surface_share(view, u, v)) return kNone;
   }
@@ -186,8 +187,8 @@ DepthSensor::Phasor DepthSensor::surface_phasor(const DepthView& view, int u, in
   Phasor sum;
   const auto add = [&](double share, double range) {
     const double electrons = s.signal * kPi * share;
-    sum.real += electrons * std::cos(turn * range);
-    sum.imaginary += electrons * std::sin(turn * range);
+    sum.real += electrons * quick::cos(turn * range);
+    sum.imaginary += electrons * quick::sin(turn * range);
   };
   if (returns.surface > 0) add(returns.surface, distance);
   for (int i = 0; i < kAirSteps && returns.air > 0; ++i) add(returns.part[i], returns.range[i]);
@@ -209,10 +210,10 @@ float DepthSensor::measure_phase(const DepthView& view, const std::vector<Phasor
       weights += weight;
     }
   }
-  const double amplitude = std::hypot(sum.real, sum.imaginary) / weights;
+  const double amplitude = quick::hypot(sum.real, sum.imaginary) / weights;
   if (amplitude < s.least_amplitude) return kNone;
   const double span = kLightSpeed / (2 * s.modulation_mhz * 1e6);
-  double range = std::atan2(sum.imaginary, sum.real) / (2 * kPi) * span;
+  double range = quick::atan2(sum.imaginary, sum.real) / (2 * kPi) * span;
   if (s.noise) {
     const NoiseField noise(spec_.seed, "depth/noise", std::uint64_t(view.frame));
     range += span / std::sqrt(8) * std::sqrt(amplitude + s.background) / (2 * amplitude) *

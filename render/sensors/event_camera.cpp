@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "kernel/base/quick_math.h"
 #include "render/sensors/noise_field.h"
 
 namespace rubble {
@@ -66,7 +67,7 @@ void EventPixels::see(std::int64_t stamp_ns, const std::vector<float>& light,
                       std::vector<Event>& events) {
   std::vector<double> level(light.size());
   for (std::size_t i = 0; i < light.size(); ++i)
-    level[i] = std::log(std::max(0.0, double(light[i])) + spec_.dark);
+    level[i] = quick::log(std::max(0.0, double(light[i])) + spec_.dark);
   if (level_.empty()) {
     reference_ = level;
     silent_until_ns_.assign(level.size(), stamp_ns);

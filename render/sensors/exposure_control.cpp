@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kernel/base/quick_math.h"
+
 namespace rubble {
 
 namespace {
@@ -18,30 +20,30 @@ double saturation_share(const ExposureSettings& settings, double f_number) {
 }
 
 ExposureControl::ExposureControl(const ExposureSpec& spec)
-    : spec_(spec), exposure_(std::log2(spec.time * spec.iso)) {}
+    : spec_(spec), exposure_(quick::log2(spec.time * spec.iso)) {}
 
 ExposureSettings ExposureControl::settings() const {
   if (spec_.mode != ExposureMode::automatic) return {spec_.time, spec_.iso};
-  const double product = std::exp2(exposure_);
+  const double product = quick::exp2(exposure_);
   const double time = std::clamp(product / spec_.iso, kShortest, spec_.longest_time);
   return {time, std::clamp(product / time, spec_.iso, std::max(spec_.iso, spec_.highest_iso))};
 }
 
 double ExposureControl::goal() const {
-  return std::min(0.9, kMiddleGrey * std::exp2(spec_.compensation));
+  return std::min(0.9, kMiddleGrey * quick::exp2(spec_.compensation));
 }
 
 double ExposureControl::clamp(double exposure) const {
-  return std::clamp(exposure, std::log2(kShortest * spec_.iso),
-                    std::log2(spec_.longest_time * std::max(spec_.iso, spec_.highest_iso)));
+  return std::clamp(exposure, quick::log2(kShortest * spec_.iso),
+                    quick::log2(spec_.longest_time * std::max(spec_.iso, spec_.highest_iso)));
 }
 
 void ExposureControl::follow(double mean, double elapsed) {
   if (spec_.mode != ExposureMode::automatic) return;
-  const double stops = std::log2(goal() / std::max(mean, kDarkest));
+  const double stops = quick::log2(goal() / std::max(mean, kDarkest));
   wanted_.push_back(exposure_ + std::clamp(stops, -kMostStops, kMostStops));
   if (int(wanted_.size()) <= spec_.delay) return;
-  const double share = spec_.time_constant > 0 ? 1 - std::exp(-elapsed / spec_.time_constant) : 1;
+  const double share = spec_.time_constant > 0 ? 1 - quick::exp(-elapsed / spec_.time_constant) : 1;
   exposure_ = clamp(exposure_ + share * (wanted_.front() - exposure_));
   wanted_.pop_front();
 }

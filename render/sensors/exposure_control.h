@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 
+#include "kernel/base/quick_math.h"
 #include "render/scene/camera_spec.h"
 
 namespace rubble {
@@ -31,7 +32,7 @@ class ExposureControl {
     double low = -24, high = 24;
     for (int i = 0; i < 40; ++i) {
       const double stops = 0.5 * (low + high);
-      (mean(std::exp2(stops)) < goal() ? low : high) = stops;
+      (mean(quick::exp2(stops)) < goal() ? low : high) = stops;
     }
     exposure_ = clamp(exposure_ + 0.5 * (low + high));
   }

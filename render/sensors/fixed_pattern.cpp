@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/base/quick_math.h"
 #include "render/sensors/noise_field.h"
 
 namespace rubble {
@@ -17,7 +18,7 @@ FixedPattern::FixedPattern(const ImageSensorSpec& spec, std::size_t photosites, 
     gain_[i] = float(std::max(0.0, 1 + spec.prnu * gain.normal(i)));
     offset_[i] = float(spec.dsnu * offset.normal(i));
     const double more = hot.uniform(2 * i) < spec.hot_pixels
-                            ? -spec.hot_current * std::log(1 - hot.uniform(2 * i + 1))
+                            ? -spec.hot_current * quick::log(1 - hot.uniform(2 * i + 1))
                             : 0;
     current_[i] = float(spec.dark_current + more);
   }

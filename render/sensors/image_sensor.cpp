@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/parallel.h"
+#include "kernel/base/quick_math.h"
 #include "render/sensors/bayer.h"
 #include "render/sensors/fixed_pattern.h"
 #include "render/sensors/jpeg_loss.h"
@@ -18,8 +19,8 @@ constexpr double kRed = 0.2126, kGreen = 0.7152, kBlue = 0.0722;  // Rec. 709
 
 double respond(double x, const ImageSensorSpec& spec) {
   if (spec.response == Response::linear) return x;
-  if (spec.response == Response::gamma) return std::pow(x, 1 / spec.gamma);
-  return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;  // IEC 61966-2-1
+  if (spec.response == Response::gamma) return quick::pow(x, 1 / spec.gamma);
+  return x <= 0.0031308 ? 12.92 * x : 1.055 * quick::pow(x, 1 / 2.4) - 0.055;  // IEC 61966-2-1
 }
 
 }  // namespace
@@ -29,7 +30,7 @@ ImageSensor::ImageSensor(const CameraSpec& spec, const LensDirections& direction
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const Vec3f& d = directions[i];
     const double cosine = std::max(0.0, double(d.z));
-    fall_off_[i] = d == Vec3f() ? 0.0f : float(std::pow(cosine, 4 * spec.sensor.vignette));
+    fall_off_[i] = d == Vec3f() ? 0.0f : float(quick::pow(cosine, 4 * spec.sensor.vignette));
   }
   for (int count = 0; count <= most_; ++count) {
     const double value = respond(double(count) / most_, spec.sensor);

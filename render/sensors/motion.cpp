@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/base/quick_math.h"
+
 namespace rubble {
 
 namespace {
@@ -37,7 +39,7 @@ double longest_motion(const ViewRays& view, const std::vector<float>& distances,
       const auto a = lens.project(before * shifted(world, first, i));
       const auto b = lens.project(after * shifted(world, last, i));
       if (!a || !b || (!inside(*a) && !inside(*b))) continue;
-      longest = std::max(longest, std::hypot(b->u - a->u, b->v - a->v));
+      longest = std::max(longest, quick::hypot(b->u - a->u, b->v - a->v));
     }
   }
   return longest;

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
 #include "kernel/base/random.h"
 
 namespace rubble {
@@ -22,7 +23,7 @@ class NoiseField {
   }
   double normal(std::uint64_t place) const {  // Box and Muller (1958)
     const double u = double((bits(2 * place) >> 11) + 1) * 0x1p-53, v = uniform(2 * place + 1);
-    return std::sqrt(-2 * std::log(u)) * std::cos(2 * portable::kPi * v);
+    return std::sqrt(-2 * quick::log(u)) * quick::cos(2 * portable::kPi * v);
   }
   // Poisson: by inversion up to a mean of 30, beyond by the normal with its skew put right
   // (Cornish and Fisher 1937).
@@ -33,7 +34,7 @@ class NoiseField {
       const double value = mean + std::sqrt(mean) * z + (z * z - 1) / 6;
       return value > 0 ? std::floor(value + 0.5) : 0;
     }
-    double p = std::exp(-mean), left = uniform(2 * place) - p, count = 0;
+    double p = quick::exp(-mean), left = uniform(2 * place) - p, count = 0;
     while (left >= 0 && count < 200) p *= mean / ++count, left -= p;
     return count;
   }

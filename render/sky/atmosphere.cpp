@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
 
 namespace rubble {
 
@@ -31,7 +32,7 @@ struct Densities {
 
 Densities densities_at(double height, double haze) {
   const double h = std::max(height, 0.0);
-  return {std::exp(-h / kAirHeight), haze * std::exp(-h / kHazeHeight),
+  return {quick::exp(-h / kAirHeight), haze * quick::exp(-h / kHazeHeight),
           std::max(0.0, 1 - std::fabs(h - 25000) / 15000)};
 }
 
@@ -43,7 +44,7 @@ double leave(const Vec3& p, const Vec3& d, double r) {
 
 Vec3 pass(const Densities& depth) {
   const Vec3 tau = kAir * depth.air + kHaze * depth.haze + kOzone * depth.ozone;
-  return {std::exp(-tau.x), std::exp(-tau.y), std::exp(-tau.z)};
+  return {quick::exp(-tau.x), quick::exp(-tau.y), quick::exp(-tau.z)};
 }
 
 Densities depth_along(const Vec3& p, const Vec3& d, double length, double haze) {
@@ -71,7 +72,7 @@ double cosine_of(double t, double r) {
 }
 
 // Mean of exp(-x) from 0 to tau.
-double mean_pass(double tau) { return tau < 1e-4 ? 1 - 0.5 * tau : (1 - std::exp(-tau)) / tau; }
+double mean_pass(double tau) { return tau < 1e-4 ? 1 - 0.5 * tau : (1 - quick::exp(-tau)) / tau; }
 
 Vec3 times(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
@@ -79,11 +80,11 @@ Vec3 times(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b
 
 Vec3f sun_illuminance(double elevation_deg, double haze) {
   const double e = elevation_deg * portable::kPi / 180;
-  const Vec3 p(0, 0, kGround + 2), d(std::cos(e), 0, std::sin(e));
+  const Vec3 p(0, 0, kGround + 2), d(quick::cos(e), 0, quick::sin(e));
   // The share of the disc above the horizon, as if the disc were a square.
   const double above = std::clamp(0.5 + 0.5 * e / kSunRadius, 0.0, 1.0);
   if (above <= 0) return {};
-  const Vec3 level(std::cos(std::max(e, 0.0)), 0, std::sin(std::max(e, 0.0)));
+  const Vec3 level(quick::cos(std::max(e, 0.0)), 0, quick::sin(std::max(e, 0.0)));
   const Vec3 left = pass(depth_along(p, level, leave(p, level, kTop), haze));
   return Vec3f(times(left, kSunColour) * (kOuterKlx * above));
 }
@@ -101,13 +102,13 @@ ClearSky::ClearSky(const Vec3f& to_sun, double haze) : sun_(to_sun), haze_(haze)
   }
   // The mean over all directions: those of equal solid angle in the upper half, and the lit ground.
   constexpr int kRings = 8, kSides = 8;
-  const double azimuth = std::atan2(sun_.y, sun_.x);
+  const double azimuth = quick::atan2(sun_.y, sun_.x);
   Vec3 sky, level;
   for (int i = 0; i < kRings; ++i) {
     const double z = (i + 0.5) / kRings, flat = std::sqrt(1 - z * z);
     for (int j = 0; j < kSides; ++j) {  // one half: the other is its mirror image
       const double a = azimuth + portable::kPi * (j + 0.5) / kSides;
-      const Scattered s = scatter({flat * std::cos(a), flat * std::sin(a), z});
+      const Scattered s = scatter({flat * quick::cos(a), flat * quick::sin(a), z});
       sky += s.sun * (1.0 / (kRings * kSides));
       level += s.sun * (2 * z / (kRings * kSides));
     }
@@ -137,7 +138,7 @@ ClearSky::Scattered ClearSky::scatter(const Vec3& d) const {
   const double length = leave(eye, d, kTop), c = dot(d, sun_), g = kHazeForward;
   const double air_phase = 3 / (16 * portable::kPi) * (1 + c * c);
   const double haze_phase = 3 / (8 * portable::kPi) * (1 - g * g) * (1 + c * c) /
-                            ((2 + g * g) * std::pow(1 + g * g - 2 * g * c, 1.5));
+                            ((2 + g * g) * quick::pow(1 + g * g - 2 * g * c, 1.5));
   // Thick haze scatters its own light again, mostly straight on: what goes on within the forward peak, the
   // share g^2, is not lost on the way (delta scaling, Joseph, Wiscombe and Weinman 1976).
   const double kept = haze_ > 1 ? 1 - kHazeScatters * g * g : 1;

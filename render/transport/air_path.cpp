@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
 #include "render/media/air_box.h"
 
 namespace rubble {
@@ -27,7 +28,7 @@ bool AirPath::clip(const Vec3f& from, const Vec3f& direction, float& near, float
 
 float AirPath::passes(const Vec3f& from, const Vec3f& direction, float near, float far) const {
   if (clear_ || near >= far) return 1;
-  return float(std::exp(-air_.optical_depth(Vec3(from + direction * near), Vec3(direction),
+  return float(quick::exp(-air_.optical_depth(Vec3(from + direction * near), Vec3(direction),
                                             double(far - near))));
 }
 
@@ -41,7 +42,7 @@ bool AirPath::find_event(const Vec3f& from, const Vec3f& direction, float near, 
                          float random, float& at) const {
   if (clear_ || near >= far) return false;
   const Vec3 start(from + direction * near), way(direction);
-  const double wanted = -std::log1p(-double(random)), length = double(far - near);
+  const double wanted = -quick::log1p(-double(random)), length = double(far - near);
   if (air_.homogeneous()) {
     const double t = wanted / std::max(air_.extinction({}), 1e-12);
     at = near + float(t);
@@ -95,7 +96,7 @@ Vec3f AirPath::sample_phase(const Vec3f& p, const Vec3f& direction, SamplePair u
   const float turn = 2 * float(portable::kPi) * u.y;
   const Vec3f side = std::fabs(direction.z) < 0.9f ? Vec3f(0, 0, 1) : Vec3f(1, 0, 0);
   const Vec3f x = normalized(cross(side, direction)), y = cross(direction, x);
-  return normalized(direction * cosine + x * (sine * std::cos(turn)) + y * (sine * std::sin(turn)));
+  return normalized(direction * cosine + x * (sine * quick::cos(turn)) + y * (sine * quick::sin(turn)));
 }
 
 }  // namespace rubble

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
 #include "render/lighting/light_packing.h"
 
 namespace rubble {
@@ -160,11 +161,11 @@ void AirTransfer::follow(const AirMatter& air, const Sources& sources, std::size
     const std::uint8_t* seen = links_.seen.data() + links_.first_place[i * AirLinks::kDirections + direction];
     float passed = 1;
     Colour sum;
-    if (!emitted) passed = std::exp(-air.extinction[i] * length);
+    if (!emitted) passed = quick::exp(-air.extinction[i] * length);
     if (emitted) {
       links_.cut(length, [&](float middle, float step) {
         const Colour here = between(*emitted, from + way * middle, *seen++, i);
-        const float through = std::exp(-here.c[3] * step), share = passed * (1 - through);
+        const float through = quick::exp(-here.c[3] * step), share = passed * (1 - through);
         for (int c = 0; c < 3; ++c) sum.c[c] += here.c[c] * share;
         passed *= through;
       });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/base/quick_math.h"
 #include "render/lighting/light_packing.h"
 #include "render/media/air_box.h"
 #include "render/media/corner_sight.h"
@@ -28,7 +29,7 @@ void add_beam(const Vec3f& illuminance, const Vec3f& to_light, RadianceTerms& ou
 float passes_to(const Air& air, const Aabb& box, const LightModel& light, const LightModel::Sample& sample, const Vec3f& p) {
   float near = 0, far = sample.distance;
   if (light.type == LightType::directional && !clip_to_box(box, p, sample.to_light, near, far)) return 1;
-  return float(std::exp(-air.turned_depth(Vec3(p + sample.to_light * near), Vec3(sample.to_light), double(far - near))));
+  return float(quick::exp(-air.turned_depth(Vec3(p + sample.to_light * near), Vec3(sample.to_light), double(far - near))));
 }
 
 }  // namespace
@@ -248,7 +249,7 @@ void FogLight::set_lamp(const PlacedLamp& lamp, const Radiance& radiance, const 
       const Vec3f to_lamp = way * (1 / away);
       // The mean over what the point stands for: next to the lamp the square of the distance is that of a cell.
       const float spread = away * away / (away * away + 0.1f * cell * cell);
-      const auto passed = float(std::exp(-air_.turned_depth(Vec3(p), Vec3(to_lamp), double(away))));
+      const auto passed = float(quick::exp(-air_.turned_depth(Vec3(p), Vec3(to_lamp), double(away))));
       add_beam(lamp.illuminance(lamp.position, p) * (spread * passed), to_lamp, sources.direct[i]);
     }
   });

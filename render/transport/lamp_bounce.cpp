@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
 #include "render/lighting/light_packing.h"
 #include "render/lighting/reflected_light.h"
 
@@ -121,7 +122,7 @@ void LampBounce::light_points() {
     if (facing <= 0 || away2 > kReach * kReach || away2 < 1e-6f) return;
     const float away = std::sqrt(away2);
     if (away > distance_towards(way) * (1 + kSlack) + kNear) return;
-    const float kept = kept_at(away) * std::exp(-extinction_ * away) * facing / (away * portable::kPiF);
+    const float kept = kept_at(away) * quick::exp(-extinction_ * away) * facing / (away * portable::kPiF);
     const Vec3f light = multiply(links_.albedos[i], lamp_.illuminance(lamp_.position, points_[i].position)) * kept;
     radiance_[i] = {{light.x, light.y, light.z, 0}};
   });
@@ -168,7 +169,7 @@ void LampBounce::add_shown_to_changed() {
 
 // What the air leaves of light between two points.
 float LampBounce::passes(std::size_t from, std::size_t to) const {
-  return std::exp(-extinction_ * distance(points_[from].position, points_[to].position));
+  return quick::exp(-extinction_ * distance(points_[from].position, points_[to].position));
 }
 
 void LampBounce::mark_lit() {
@@ -212,7 +213,7 @@ LampBounce::Arrived LampBounce::gather(std::size_t point) const {
     if (light.y <= 0) continue;
     const Vec3f way = points_[links[k]].position - points_[point].position;
     const float away = std::max(norm(way), 1e-4f);
-    if (extinction_ > 0) light *= std::exp(-extinction_ * away);
+    if (extinction_ > 0) light *= quick::exp(-extinction_ * away);
     out.colour += light;
     const Vec3f w = way * (1 / away);
     out.vector += w * (luminance(light) / std::max(dot(w, points_[point].normal), 0.35f));

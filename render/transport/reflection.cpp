@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
 
 namespace rubble {
 
@@ -38,8 +39,8 @@ Vec3f sample_visible_normal(const Vec3f& out, float alpha, SamplePair u) {
       flat2 > 1e-12f ? Vec3f(-v.y, v.x, 0) * (1 / std::sqrt(flat2)) : Vec3f(1, 0, 0);
   const Vec3f t2 = cross(v, t1);
   const float r = std::sqrt(u.x), turn = 2 * portable::kPiF * u.y;
-  const float p1 = r * std::cos(turn), s = 0.5f * (1 + v.z);
-  const float p2 = (1 - s) * std::sqrt(std::max(0.0f, 1 - p1 * p1)) + s * r * std::sin(turn);
+  const float p1 = r * quick::cos(turn), s = 0.5f * (1 + v.z);
+  const float p2 = (1 - s) * std::sqrt(std::max(0.0f, 1 - p1 * p1)) + s * r * quick::sin(turn);
   const Vec3f n = t1 * p1 + t2 * p2 + v * std::sqrt(std::max(0.0f, 1 - p1 * p1 - p2 * p2));
   return normalized(Vec3f(alpha * n.x, alpha * n.y, std::max(1e-6f, n.z)));
 }
@@ -218,7 +219,7 @@ ReflectedSample sample_reflection(const Reflection& r, const Vec3f& out, SampleP
     sample.in = mirrored_about(out, sample_visible_normal(out, r.film.roughness, u));
   } else {
     const float radius = std::sqrt(u.x), turn = 2 * portable::kPiF * u.y;
-    sample.in = {radius * std::cos(turn), radius * std::sin(turn), std::sqrt(1 - u.x)};
+    sample.in = {radius * quick::cos(turn), radius * quick::sin(turn), std::sqrt(1 - u.x)};
   }
   if (r.matt()) {
     sample.weight = r.base, sample.density = sample.in.z / portable::kPiF;

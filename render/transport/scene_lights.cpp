@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
 
 namespace rubble {
 
@@ -29,7 +30,7 @@ Vec3f within_cone(const Vec3f& axis, float cosine, SamplePair u) {
   make_basis(axis, x, y);
   const float off = u.x * (1 - cosine);  // one minus the cosine
   const float sine = std::sqrt(std::max(0.0f, off * (2 - off))), turn = 2 * portable::kPiF * u.y;
-  return normalized(axis * (1 - off) + x * (sine * std::cos(turn)) + y * (sine * std::sin(turn)));
+  return normalized(axis * (1 - off) + x * (sine * quick::cos(turn)) + y * (sine * quick::sin(turn)));
 }
 
 }  // namespace
@@ -50,7 +51,7 @@ PlacedLamp place_lamp(const LampSpec& lamp, const Vec3f& colour, const Pose& wor
 Vec3f PlacedLamp::diode(SamplePair u) const {
   if (radius <= 0) return position;
   const float r = radius * (disc ? std::sqrt(u.x) : 1), turn = 2 * portable::kPiF * u.y;
-  return position + side * (r * std::cos(turn)) + up * (r * std::sin(turn));
+  return position + side * (r * quick::cos(turn)) + up * (r * quick::sin(turn));
 }
 
 // Falls to half at the half-power angle h: I = I0 2^-((1 - cos a) / (1 - cos h))^2.
@@ -58,7 +59,7 @@ Vec3f PlacedLamp::illuminance(const Vec3f& diode, const Vec3f& point) const {
   const Vec3f way = point - diode;
   const float d2 = std::max(dot(way, way), 1e-6f);
   const float x = (1 - dot(way, axis) / std::sqrt(d2)) * cone;
-  return intensity * (std::exp2(-x * x) / d2);
+  return intensity * (quick::exp2(-x * x) / d2);
 }
 
 SceneLights::SceneLights(const LightSet& lights) : lights_(lights), sky_sampler_(lights.sky) {
@@ -99,11 +100,11 @@ Vec3f SceneLights::backdrop(const Vec3f& d) const {
   Vec3f sky = lights_.sky.radiance({d.x, d.y, std::max(d.z, 0.0f)});
   sky += lights_.sky.sun_radiance * smoothstep(0.999985f, 0.999992f, dot(d, lights_.sky.sun_direction));
   const Vec3f a = normalized(Vec3f(d.x, d.y, 0));
-  const float ridge = 0.017f + 0.006f * std::sin(5.3f * a.x + 2.0f * std::sin(3.1f * a.y)) +
-                      0.004f * std::sin(11.0f * a.y + 1.7f) +
-                      0.0025f * std::sin(37.0f * a.x + 4.0f * std::sin(19.0f * a.y)) +
-                      0.0016f * std::sin(120.0f * a.y - 70.0f * a.x) * std::sin(83.0f * a.x) +
-                      0.0008f * std::sin(310.0f * a.x + 230.0f * a.y);
+  const float ridge = 0.017f + 0.006f * quick::sin(5.3f * a.x + 2.0f * quick::sin(3.1f * a.y)) +
+                      0.004f * quick::sin(11.0f * a.y + 1.7f) +
+                      0.0025f * quick::sin(37.0f * a.x + 4.0f * quick::sin(19.0f * a.y)) +
+                      0.0016f * quick::sin(120.0f * a.y - 70.0f * a.x) * quick::sin(83.0f * a.x) +
+                      0.0008f * quick::sin(310.0f * a.x + 230.0f * a.y);
   const float behind = smoothstep(ridge - 0.0008f, ridge + 0.0008f, d.z);
   return mix(mix(skyline_, sky, std::min(0.55f + 10.0f * std::max(d.z, 0.0f), 1.0f)), sky, behind);
 }

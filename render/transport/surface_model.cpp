@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "kernel/base/quick_math.h"
 #include "render/materials/glass.h"
 #include "render/materials/surface_appearance.h"
 #include "render/surface/scalar_surface.h"
@@ -131,7 +132,7 @@ void LookSurfaces::find_pattern(const SurfaceQuery& query, Place& place) const {
   if (look.pattern == Pattern::cast_concrete) u += scalar::wall_shift(v);
   const float grazing = std::max(-dot(place.to_world(place.face), query.direction), 0.05f);
   const float texels = float(textures_.size()) / look.tile * query.footprint / std::sqrt(grazing);
-  const float level = texels > 1 ? std::log2(texels) : 0;
+  const float level = texels > 1 ? quick::log2(texels) : 0;
   auto texel = textures_.read(int(look.pattern), u, v, level);
   SurfaceDetail& detail = place.detail;
   if (look.dust < 0.2f && detail.slow > -0.6f) {
@@ -146,7 +147,7 @@ void LookSurfaces::find_pattern(const SurfaceQuery& query, Place& place) const {
   detail.bright = detail.raised = texel[2], detail.mask = texel[3];
   if (scene_.surrounded && wetness_ > 0)
     detail.raised += 0.5f - textures_.read(int(look.pattern), u, v,
-                                          std::max(level, std::log2(float(textures_.size())) - 3))[2];
+                                          std::max(level, quick::log2(float(textures_.size())) - 3))[2];
   detail.up = place.to_world(place.smooth).z;
 }
 

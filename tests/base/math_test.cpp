@@ -4,9 +4,45 @@
 #include <gtest/gtest.h>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
 
 namespace rubble {
 namespace math_test {
+
+// |is - should|, in units of the value's size, but no less than those of `least`.
+double error_of(double is, double should, double least) { return std::fabs(is - should) / std::max(std::fabs(should), least); }
+
+TEST(QuickMath, IsThatOfLibm) {
+  for (int i = -20000; i <= 20000; ++i) {
+    const double x = 0.0137 * i, size = std::exp(0.03 * x);
+    ASSERT_LT(error_of(quick::exp(2.5 * x), std::exp(2.5 * x), 0), 1e-15) << x;
+    ASSERT_LT(error_of(quick::exp2(3.7 * x), std::exp2(3.7 * x), 0), 1e-15) << x;
+    ASSERT_LT(error_of(quick::expm1(0.01 * x), std::expm1(0.01 * x), 1e-9), 1e-15) << x;
+    ASSERT_LT(error_of(quick::log(size), std::log(size), 1), 1e-15) << size;
+    ASSERT_LT(error_of(quick::log2(size), std::log2(size), 1), 1e-15) << size;
+    ASSERT_LT(error_of(quick::log1p(size - 0.999), std::log1p(size - 0.999), 1), 1e-15) << size;
+    ASSERT_LT(error_of(quick::pow(size, 2.4), std::pow(size, 2.4), 0), 1e-14) << size;
+    ASSERT_LT(error_of(quick::cbrt(x), std::cbrt(x), 1e-9), 2e-15) << x;
+    ASSERT_LT(error_of(quick::sin(x), std::sin(x), 1), 1e-15) << x;
+    ASSERT_LT(error_of(quick::cos(x), std::cos(x), 1), 1e-15) << x;
+    ASSERT_LT(error_of(quick::atan2(x, 0.7), std::atan2(x, 0.7), 1), 1e-15) << x;
+    ASSERT_LT(error_of(quick::acos(x / 274), std::acos(x / 274), 1), 1e-15) << x;
+    ASSERT_LT(error_of(quick::erf(x / 40), std::erf(x / 40), 1), 3e-15) << x;
+  }
+}
+
+TEST(QuickMath, IsExactWherePeopleRelyOnIt) {
+  for (int e = -60; e <= 60; ++e) {
+    EXPECT_EQ(quick::exp2(double(e)), std::ldexp(1.0, e));
+    EXPECT_EQ(quick::log2(std::ldexp(1.0, e)), e);
+  }
+  EXPECT_EQ(quick::exp(0.0), 1);
+  EXPECT_EQ(quick::exp(-1e9), 0);
+  EXPECT_TRUE(std::isinf(quick::exp(1e9)) && std::isinf(quick::log(0)));
+  EXPECT_TRUE(std::isnan(quick::exp(std::nan(""))));
+  EXPECT_EQ(quick::atan2(0.0, 0.0), 0);
+  EXPECT_EQ(quick::erf(-50.0), -1);
+}
 
 TEST(PortableMath, AgreesWithLibm) {
   for (int i = -20000; i <= 20000; ++i) {

@@ -9,6 +9,7 @@
 #include "app/eval/scores/point_grid.h"
 #include "app/eval/scores/space_key.h"
 #include "kernel/base/error.h"
+#include "kernel/base/quick_math.h"
 #include "kernel/base/random.h"
 
 namespace rubble {
@@ -32,9 +33,9 @@ Vec3 ray_of(const ColmapCamera& camera, double u, double v) {
   const double fx = camera.params[0], fy = camera.params[one_focal ? 0 : 1];
   const double x = (u - camera.params[c]) / fx, y = (v - camera.params[c + 1]) / fy;
   if (camera.model.find("FISHEYE") == std::string::npos) return {x, y, 1};
-  const double angle = std::hypot(x, y);
+  const double angle = quick::hypot(x, y);
   if (angle == 0) return {0, 0, 1};
-  return {std::sin(angle) * x / angle, std::sin(angle) * y / angle, std::cos(angle)};
+  return {quick::sin(angle) * x / angle, quick::sin(angle) * y / angle, quick::cos(angle)};
 }
 
 const ColmapCamera& camera_of(const ColmapModel& model, std::uint32_t id) {

@@ -6,6 +6,7 @@
 
 #include "app/eval/scores/alignment.h"
 #include "kernel/base/error.h"
+#include "kernel/base/quick_math.h"
 
 namespace rubble {
 namespace {
@@ -16,7 +17,7 @@ constexpr double kLargestSpread = 10;  // of a turn that counts as one and the s
 
 double turn_deg(const Quat& q) {
   const double sine = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z);
-  return 2 * std::atan2(sine, std::abs(q.w)) * 180 / 3.14159265358979323846;
+  return 2 * quick::atan2(sine, std::abs(q.w)) * 180 / 3.14159265358979323846;
 }
 
 double span_seconds(const RecordedTrajectory& track) { return track.poses.back().stamp - track.poses.front().stamp; }
@@ -45,7 +46,7 @@ double constant_turn(const std::vector<PosePair>& pairs) {
   }
   const Quat mean = normalized(sum);
   double squares = 0;
-  for (const Quat& q : turns) squares += std::pow(turn_deg(mean.conjugate() * q), 2);
+  for (const Quat& q : turns) squares += quick::pow(turn_deg(mean.conjugate() * q), 2);
   const bool constant = std::sqrt(squares / double(turns.size())) < kLargestSpread;
   return constant ? turn_deg(mean) : 0;
 }

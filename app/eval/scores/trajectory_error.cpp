@@ -6,6 +6,7 @@
 
 #include "app/eval/scores/alignment.h"
 #include "kernel/base/error.h"
+#include "kernel/base/quick_math.h"
 
 namespace rubble {
 namespace {
@@ -45,7 +46,7 @@ ErrorSpread calc_spread(std::vector<double> errors) {
 
 double angle_deg(const Quat& q) {
   const double sine = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z);
-  return 2 * std::atan2(sine, std::abs(q.w)) * 180 / 3.14159265358979323846;
+  return 2 * quick::atan2(sine, std::abs(q.w)) * 180 / 3.14159265358979323846;
 }
 
 Similarity align(const std::vector<PosePair>& pairs, bool with_scale) {

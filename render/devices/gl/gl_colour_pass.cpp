@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "kernel/base/error.h"
+#include "kernel/base/quick_math.h"
 #include "render/colour/frame_fill.h"
 #include "render/colour/view_lamp.h"
 #include "render/gl/shader.h"
@@ -43,7 +44,7 @@ ShaderDefines variant_of(const FrameLight& frame, const GlGeometry& geometry) {
 GlTexture upload_surface_appearances(const Gl& gl, const std::vector<PatternImage>& patterns) {
   const int size = patterns.front().size;
   GlTexture texture(gl, GLenum(GL_TEXTURE_2D_ARRAY));
-  const int levels = int(std::lround(std::log2(size))) + 1;
+  const int levels = int(std::lround(quick::log2(double(size)))) + 1;
   gl.TextureStorage3D(texture.name(), levels, GL_RGBA8, size, size, GLsizei(patterns.size()));
   for (std::size_t i = 0; i < patterns.size(); ++i)
     gl.TextureSubImage3D(texture.name(), 0, 0, 0, GLint(i), size, size, 1, GL_RGBA,

@@ -1,0 +1,66 @@
+// Triangles in blocks of eight, and where a ray meets one of them. Embree finds the blocks (ray_tree.h). Distances are
+// computed here, by plain IEEE operations in the order written, and compiled once for each instruction set: so a hit has
+// the same bits on every machine and with every version of Embree. Internal to render/.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "kernel/base/math.h"
+
+namespace rubble {
+
+struct alignas(32) TriangleBlock {
+  static constexpr int kSize = 8;
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  float corners[3][3][kSize];  // by corner and axis; unit: m. A place without a triangle holds one point three times
+  std::uint32_t ids[kSize];    // of the triangles; kNone: no triangle
+  float margin = 0;            // a triangle is met within its bounding box, enlarged by this; unit: m
+};
+
+struct BlockRay {
+  BlockRay() = default;
+  // direction: of any length. nearest: unit: lengths of the direction, as all distances along a ray.
+  BlockRay(const Vec3f& from, const Vec3f& direction, float nearest, std::uint32_t first_id = 0);
+
+  Vec3f from, direction, inverse;
+  float nearest = 0;           // a hit is not nearer than this
+  std::uint32_t first_id = 0;  // is added to the numbers of the triangles
+};
+
+// Of equally near hits, that of the triangle with the smallest number counts.
+struct BlockHit {
+  float distance = 0;                           // unit: lengths of the direction. Nothing beyond it is met
+  std::uint32_t triangle = TriangleBlock::kNone;  // first_id of the ray plus that of the block; kNone: nothing is met
+  float u = 0, v = 0;                           // weights of the second and third corner
+  Vec3f normal;                                 // outwards, of any length, in the frame of the triangles
+  bool back = false;                            // from inside
+};
+
+struct BlockFunctions {
+  const char* name;  // of the instruction set
+  // Whether `hit` is another now.
+  bool (*meet)(const TriangleBlock& block, const BlockRay& ray, BlockHit& hit);
+  // Whether a triangle is met not farther than `farthest`.
+  bool (*hides)(const TriangleBlock& block, const BlockRay& ray, float farthest);
+};
+// Those that this processor can run, the fastest first. Never empty.
+const std::vector<BlockFunctions>& block_functions();
+
+// Which triangles lie together.
+struct BlockOrder {
+  std::vector<std::uint32_t> triangles;  // a permutation
+  std::vector<std::uint32_t> ends;       // of each block, one past its last place in `triangles`
+};
+using TriangleCorners = std::function<std::array<Vec3f, 3>(std::uint32_t triangle)>;
+BlockOrder order_blocks(std::uint32_t count, const TriangleCorners& corners);
+// reach: farthest from the origin that a ray begins; unit: m. Numbers of triangles begin with first_id.
+void append_blocks(const BlockOrder& order, const TriangleCorners& corners, std::uint32_t first_id, float reach,
+                   std::vector<TriangleBlock>& blocks);
+// The bounds that a tree has to keep of a block, so that rounding of its own never hides a hit.
+Aabb tree_bounds(const TriangleBlock& block);
+
+}  // namespace rubble

@@ -40,7 +40,7 @@ Picture develop_fast(const LinearFrame& frame, const Vec3f& gains, float exposur
   return out;
 }
 
-Luma luma_of(const Picture& picture) { return luma_of(picture.rgb.data(), picture.width, picture.height); }
+Luma luma_of(const Picture& picture) { return rubble::luma_of(picture.rgb.data(), picture.width, picture.height); }
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 // depth_bench: the fast renderer beside the reference along the way into ruins, from the entrance of a void to its end.
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -27,7 +27,7 @@ struct Request {
   std::string mission = "bench/images/depth_ruins.lua", pictures;
   // STRUCTURE:SEED
   std::vector<std::string> ruins = {"lean_to:21", "cantilever:22", "v_shape:23",  "a_frame:24",    "pancake:25",  "inclined:26",
-                                    "lean_over:27", "culvert:28",  "lean_to:29", "pancake:30", "inclined:31", "cantilever:32"};
+                                    "lean_over:27", "culvert:28",  "frame:29", "frame:30", "inclined:31", "cantilever:32"};
   std::vector<double> depths = {0, 0.33, 0.67, 1};
   std::vector<std::string> set;
   int size = 96, samples = 1024, bake_rays = RenderOptions().bake_rays, threads = 0, regions = 12;

@@ -1,30 +1,21 @@
 // reference_bench: the fast renderer beside the reference, on a list of views.
-//
-// Light is compared before exposure, by region; then both are developed at the exposure that the
-// reference's light asks for, and compared as pictures.
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <string>
 #include <vector>
 
 #include "app/assets/asset_library.h"
 #include "app/scene/build_scene.h"
 #include "bench/gallery_list.h"
+#include "bench/images/compared_view.h"
 #include "bench/images/gallery_piles.h"
 #include "bench/images/image_measures.h"
-#include "bench/images/picture_file.h"
 #include "bench/program.h"
 #include "io/image/image_file.h"
 #include "kernel/base/system/thread_count.h"
 #include "kernel/base/system/disk_cache.h"
 #include "render/colour/frame_light.h"
 #include "render/devices/software/software_device.h"
-#include "render/passes/antialias.h"
-#include "render/reference/display.h"
-#include "render/renderer.h"
 #include "scripting/mission.h"
 
 namespace rubble {
@@ -37,53 +28,12 @@ struct Request {
   bool denoise = false, reference_only = false, reuse = false;
 };
 
-struct Drawn {
-  LinearFrame frame;
-  double seconds = 0, processor = 0;  // of the image alone
-};
-
-Drawn draw(Device& device, const Scene& scene, const ViewRays& view, const RenderOptions& options) {
-  Renderer renderer(device, scene, options);
-  const auto start = std::chrono::steady_clock::now();
-  const std::clock_t processor = std::clock();
-  Drawn out{renderer.render_linear(view), 0, 0};
-  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  out.processor = double(std::clock() - processor) / CLOCKS_PER_SEC;
-  return out;
-}
-
-std::vector<float> luminance_of(const LinearFrame& frame) {
-  std::vector<float> out;
-  for (std::size_t i = 0; i < frame.rgb.size(); i += 3)
-    out.push_back(0.2126f * frame.rgb[i] + 0.7152f * frame.rgb[i + 1] + 0.0722f * frame.rgb[i + 2]);
-  return out;
-}
-
-Picture develop(const LinearFrame& frame, const Vec3f& gains, float exposure) {
-  const std::vector<std::uint8_t> rgba =
-      develop_image(frame.rgb, frame.width, frame.height, gains, exposure);
-  Picture out{frame.width, frame.height, {}};
-  for (std::size_t i = 0; i < rgba.size(); i += 4)
-    out.rgb.insert(out.rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
-  return out;
-}
-
-// As a camera gets it: with the stairs along silhouettes smoothed, as paths at random places of a pixel do.
-Picture develop_fast(const LinearFrame& frame, const Vec3f& gains, float exposure, int threads) {
-  std::vector<float> depth_values;
-  for (const float depth : frame.depth) depth_values.push_back(depth > 0 ? kNearPlane / depth : 0);
-  Picture out{frame.width, frame.height, {}};
-  smooth_edges(develop_image(frame.rgb, frame.width, frame.height, gains, exposure), depth_values, frame.width,
-               frame.height, threads, out.rgb);
-  return out;
-}
-
 void save(const Request& request, const std::string& name, const Picture& picture) {
   if (!request.pictures.empty())
     write_png(request.pictures + name + ".png", {picture.width, picture.height, picture.rgb}, 6);
 }
 
-void print_statistics(const char* name, const char* quality, const Picture& picture, const Drawn& drawn) {
+void print_statistics(const char* name, const char* quality, const Picture& picture, const DrawnView& drawn) {
   const ImageStatistics s = measure_image(luma_of(picture.rgb.data(), picture.width, picture.height));
   const double megapixels = 1e-6 * picture.width * picture.height;
   std::printf("| %s | %s | %.1f | %.2f | %.0f | %.2f | %.1f | %.1f |", name, quality, s.gradient_kurtosis,
@@ -107,10 +57,12 @@ void compare(Device& device, const GalleryPicture& picture, GalleryPiles& piles,
   options.colour = {RenderQuality::reference, request.samples, request.denoise};
   // Without a cache unless asked, for its time.
   options.cache_folder = request.reuse ? DiskCache::usual_folder() : "";
-  const Drawn slow = draw(device, scene, view, options);
-  const int width = slow.frame.width, height = slow.frame.height;
-  const float exposure = find_exposure({0.21, 0}, meter_image(slow.frame.rgb, width, height, gains));
-  const Picture expected = develop(slow.frame, gains, exposure);
+  const auto draw = [&] {
+    Renderer renderer(device, scene, options);
+    return draw_view(renderer, view);
+  };
+  const DrawnView slow = draw();
+  const Picture expected = develop_reference(slow.frame, gains);
   save(request, picture.name + "_reference", expected);
   print_statistics(picture.name.c_str(), "reference", expected, slow);
   std::printf(" | | |\n");
@@ -119,15 +71,11 @@ void compare(Device& device, const GalleryPicture& picture, GalleryPiles& piles,
   options.colour = {};
   options.bake_rays = request.bake_rays;
   options.cache_folder = DiskCache::usual_folder();
-  const Drawn fast = draw(device, scene, view, options);
-  const Picture found = develop_fast(fast.frame, gains, exposure, threads);
-  save(request, picture.name + "_fast", found);
-  print_statistics(picture.name.c_str(), "fast", found, fast);
-  const RegionDifference d = compare_regions(luminance_of(slow.frame), luminance_of(fast.frame), width,
-                                             height, request.regions, request.regions);
-  std::printf(" %.1f | %.1f | %.3f |\n", 100 * d.mean_error, 100 * d.bias,
-              structural_similarity(luma_of(expected.rgb.data(), width, height),
-                                    luma_of(found.rgb.data(), width, height)));
+  const DrawnView fast = draw();
+  const ViewComparison d = compare_views(slow.frame, fast.frame, gains, request.regions, threads);
+  save(request, picture.name + "_fast", d.found);
+  print_statistics(picture.name.c_str(), "fast", d.found, fast);
+  std::printf(" %.1f | %.1f | %.3f |\n", 100 * d.mean_error, 100 * d.bias, d.similarity);
   std::fflush(stdout);
 }
 

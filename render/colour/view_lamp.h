@@ -6,8 +6,6 @@
 
 namespace rubble {
 
-inline constexpr float kContactReach = 0.04f;  // how far a hollow darkens: less than baked light resolves; unit: m
-
 // The lamp as what throws shadows on the image.
 struct ContactLamp {
   bool on = false;   // false: no shadows of the lamp are looked for

@@ -18,7 +18,9 @@ uniform sampler2D sun_shares;
 #ifdef BEHIND
 uniform sampler2D behind;  // glass: radiance, kcd/m2, and 0 where it is dark
 #endif
-uniform sampler2D openness;     // of small corners, and to the lamp; half size
+#ifdef LAMP
+uniform sampler2D openness;  // to the lamp; half size
+#endif
 
 #ifdef RAYS
 uniform sampler2D lens_rays;  // optical frame, of length 1 / max(cosine with the axis, 0.05)
@@ -67,8 +69,8 @@ void add_light(inout Shading sum, const int i, const int type, const int first_v
   reflect_light(sum, s, e, to_light, to_eye);
 }
 
-vec3 shade(Surface s, vec3 world, vec3 to_eye, vec2 open, float passed) {
-  Shading sum = Shading(s.ambient * open.x, vec3(0.0));
+vec3 shade(Surface s, vec3 world, vec3 to_eye, float lamp_seen, float passed) {
+  Shading sum = Shading(s.ambient, vec3(0.0));
   add_light(sum, 0, LIGHT_0, s, world, to_eye);
 #if LIGHT_COUNT > 1
   add_light(sum, 1, LIGHT_1, s, world, to_eye);
@@ -87,14 +89,14 @@ vec3 shade(Surface s, vec3 world, vec3 to_eye, vec2 open, float passed) {
   lamp *= pow(passed, air_drops.y);
 #endif
   lamp *= max(dot(s.normal, to_lamp), 0.0) * clamp(dot(s.face_normal, to_lamp) * 8.0, 0.0, 1.0) *
-          open.y;
+          lamp_seen;
   reflect_light(sum, s, lamp, to_lamp, to_eye);
 #endif
   // What the mirrors on top throw back of the light all around, the base below does not get.
   float mirrored = mirrored_share(s, dot(s.normal, to_eye));
 #ifdef SURROUNDED
   // Panes and puddles show the sky above the roofs.
-  vec3 around = s.ambient * open.x, to_sky = reflect(-to_eye, s.normal);
+  vec3 around = s.ambient, to_sky = reflect(-to_eye, s.normal);
   float even = s.layers.cover * (1.0 - smoothstep(0.04, 0.12, s.layers.roughness));
 #ifdef WET
   even = max(even, s.layers.film);
@@ -103,7 +105,7 @@ vec3 shade(Surface s, vec3 world, vec3 to_eye, vec2 open, float passed) {
                even * smoothstep(0.05, 0.4, to_sky.z));
   return (sum.e * s.layers.albedo * (1.0 - mirrored) + around * mirrored + sum.glare) * 0.318310;
 #else
-  return (sum.e * s.layers.albedo * (1.0 - mirrored) + s.ambient * (open.x * mirrored) + sum.glare) * 0.318310;
+  return (sum.e * s.layers.albedo * (1.0 - mirrored) + s.ambient * mirrored + sum.glare) * 0.318310;
 #endif
 }
 
@@ -162,8 +164,11 @@ void main() {
   } else {
     vec3 world = eye + ray * z;
     Surface s = find_surface(seen.x - 1u, seen.y, world, direction, z);
-    vec2 open = texture(openness, (vec2(pixel) + 0.5) / view.zw).xy;
-    radiance = shade(s, world, -direction, open, passed);
+    float lamp_seen = 0.0;
+#ifdef LAMP
+    lamp_seen = texture(openness, (vec2(pixel) + 0.5) / view.zw).x;
+#endif
+    radiance = shade(s, world, -direction, lamp_seen, passed);
 #ifdef BEHIND
     clear = s.layers.clear;
 #endif

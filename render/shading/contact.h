@@ -1,5 +1,4 @@
-// Darkness in corners too small for the baked light, and the shadows of the lamp, at half the
-// image's size: the formulas of shaders/contact.frag.glsl, which says how they work.
+// The shadows of the lamp, at half the image's size: the formulas of shaders/contact.frag.glsl, which says how they work.
 #pragma once
 
 #include "render/shading/wide_math.h"
@@ -47,54 +46,24 @@ RUBBLE_INLINE Real lamp_visible(const ContactData& c, Real px, Real py, Real z, 
   return clear;
 }
 
-RUBBLE_INLINE void find_block(const ContactData& c, int x0, int y0, Real& corners, Real& lamp) {
+RUBBLE_INLINE Real find_block(const ContactData& c, int x0, int y0) {
   const Int column = min(lane_columns() + x0, integer(c.half_width - 1));
   const Int row = min(lane_rows() + y0, integer(c.half_height - 1));
   const Int px = min(column * 2, integer(c.width - 1)), py = min(row * 2, integer(c.height - 1));
   const Int cell_x = column & 3, cell_y = row & 3;
-  const Real middle = gather(c.depth_values, py * c.width + px);
-  const Real z = c.near / max(middle, 1e-9f);
-  const Real radius = clamp(c.reach_pixels / z, 2.0f, 48.0f);
-  // A tap far in front of the surface says nothing about its own hollows.
-  const Real limit = middle * c.reach / z;
-  const Int turn = (cell_x * 4 + cell_y * 7) & 15;
-  Real dx = gather(c.cosine, turn), dy = gather(c.sine, turn), hollow = real(0);
-  for (int i = 0; i < 4; ++i) {
-    const Real part = 0.25f + 0.25f * to_real((i * 3 + cell_x + cell_y) & 3);
-    const Int step_x = to_int(dx * radius * part + 0.5f),
-              step_y = to_int(dy * radius * part + 0.5f);
-    const auto depth_at = [&](Int x, Int y) {
-      const Real value =
-          gather(c.depth_values, clamp(y, 0, c.height - 1) * c.width + clamp(x, 0, c.width - 1));
-      return min(max(value - middle, -limit), limit);
-    };
-    // A bore of half a metre's radius is no hollow, nor are the edges between its 48 facets: their
-    // darkness is baked.
-    const Real both = depth_at(px + step_x, py + step_y) + depth_at(px - step_x, py - step_y);
-    hollow += max(both - 0.13f * part * limit, 0.0f) / part;
-    const Real was = dx;
-    dx = (was - dy) * 0.7071068f, dy = (was + dy) * 0.7071068f;
-  }
-  corners = 1.0f / (1.0f + 0.4f * hollow / max(limit, 1e-9f));
-  if (!c.lamp_on) return;
+  const Real z = c.near / max(gather(c.depth_values, py * c.width + px), 1e-9f);
   const Real part = to_real((cell_x * 5 + cell_y * 11) & 15) * 0.0625f;
-  lamp = lamp_visible(c, to_real(px), to_real(py), z, (cell_x * 7 + cell_y * 4) & 15, part);
+  return lamp_visible(c, to_real(px), to_real(py), z, (cell_x * 7 + cell_y * 4) & 15, part);
 }
 
 // Rows [first, last) of the grid, by four.
 inline void find_contacts(const ContactData& c, int first, int last) {
   for (int y = first; y < last; y += kLaneRows) {
     for (int x = 0; x < c.half_width; x += 4) {
-      Real corners = real(1), lamp = real(1);
-      find_block(c, x, y, corners, lamp);
-      for (int i = 0; i < kLaneRows && y + i < last; ++i) {
-        // The rows of the grid are padded to whole blocks.
-        float* at = c.corners + std::ptrdiff_t(y + i) * c.stride + x;
-        std::memcpy(at, reinterpret_cast<const char*>(&corners) + i * 16, 16);
-        if (c.lamp_on)
-          std::memcpy(c.lamp_seen + (at - c.corners), reinterpret_cast<const char*>(&lamp) + i * 16,
-                      16);
-      }
+      const Real lamp = find_block(c, x, y);
+      // The rows of the grid are padded to whole blocks.
+      for (int i = 0; i < kLaneRows && y + i < last; ++i)
+        std::memcpy(c.lamp_seen + std::ptrdiff_t(y + i) * c.stride + x, reinterpret_cast<const char*>(&lamp) + i * 16, 16);
     }
   }
 }

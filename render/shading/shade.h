@@ -87,16 +87,17 @@ inline Real3 shade_surface(const ShadingData& d, const Pixel& pixel, const Real3
   const Word triangle = Word(select(nothing, integer(int(d.any_triangle)), Int(pixel.triangle)));
   const Surface s = find_surface(d, placed, triangle, world, pixel.direction, pixel.z);
   clear = s.layers.clear;
-  const OpennessGrid& o = d.openness;
-  const Between x = between_clamped((to_real(pixel.x) + 0.5f) * (1.0f / float(d.width)), o.width);
-  const Between y = between_clamped((to_real(pixel.y) + 0.5f) * (1.0f / float(d.height)), o.height);
-  const Real3 ambient = s.ambient * read_half(o.corners, o.stride, x, y);
-  Shading sum{ambient, {real(0), real(0), real(0)}};
+  Shading sum{s.ambient, {real(0), real(0), real(0)}};
   for (int i = 0; i < d.light_count; ++i) add_light(d, i, pixel, s, world, sum);
-  if (d.lamp) add_lamp(d, pixel, s, world, read_half(o.lamp, o.stride, x, y), passed, sum);
+  if (d.lamp) {
+    const OpennessGrid& o = d.openness;
+    const Between x = between_clamped((to_real(pixel.x) + 0.5f) * (1.0f / float(d.width)), o.width);
+    const Between y = between_clamped((to_real(pixel.y) + 0.5f) * (1.0f / float(d.height)), o.height);
+    add_lamp(d, pixel, s, world, read_half(o.lamp, o.stride, x, y), passed, sum);
+  }
   // What the mirrors on top throw back of the light all around, the base below does not get.
   const Real mirrored = mirrored_share(d, s, -dot(s.normal, pixel.direction));
-  Real3 around = ambient;
+  Real3 around = s.ambient;
   if (d.surrounded) {
     // Panes and puddles show the sky above the roofs.
     const Real3 to_sky = pixel.direction - s.normal * (2.0f * dot(s.normal, pixel.direction));

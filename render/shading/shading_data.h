@@ -17,10 +17,8 @@ struct MipImages {
   std::int32_t first_texel[16] = {};      // of each level, in an image
 };
 
-// One pixel of a grid of the lamp's and the corners' darkness, at half the size of the image; as
-// contact.frag.glsl.
+// Where the lamp's shadows are, at half the size of the image; as contact.frag.glsl.
 struct OpennessGrid {
-  const float* corners = nullptr;  // 1: open, 0: closed in
   const float* lamp = nullptr;     // 1: in sight, 0: hidden; null: there is no lamp
   int width = 0, height = 0;       // of the grid
   int stride = 0;                  // from row to row

@@ -10,23 +10,20 @@
 
 namespace rubble {
 
-// For the darkness in corners and the shadows of the lamp, see contact.h.
+// For the shadows of the lamp, see contact.h.
 struct ContactData {
   static constexpr int kLampSteps = 8;
 
-  const float* depth_values = nullptr;          // near / Z
-  int width = 0, height = 0;                    // of the image
-  int half_width = 0, half_height = 0;          // of the grid
-  int stride = 0;                               // from row to row of it: a multiple of four
-  float near = 0, reach = 0, reach_pixels = 0;  // unit: m, m, m pixel
-  float fx = 1, fy = 1, cx = 0, cy = 0;         // as Intrinsics
-  float cosine[16], sine[16];  // of the first direction, by the place in a pattern of 4 x 4
-  bool lamp_on = false;        // its shadows are wanted
-  float lamp[3] = {};          // in the optical frame; unit: m
-  float lamp_radius = 0;       // unit: m
+  const float* depth_values = nullptr;   // near / Z
+  int width = 0, height = 0;             // of the image
+  int half_width = 0, half_height = 0;   // of the grid
+  int stride = 0;                        // from row to row of it: a multiple of four
+  float near = 0;                        // unit: m
+  float fx = 1, fy = 1, cx = 0, cy = 0;  // as Intrinsics
+  float lamp[3] = {};                    // in the optical frame; unit: m
+  float lamp_radius = 0;                 // unit: m
   float lamp_cosine[16], lamp_sine[16];  // of its spots
-  float *corners = nullptr,
-        *lamp_seen = nullptr;  // the grids that are written, as OpennessGrid, not smoothed
+  float* lamp_seen = nullptr;            // the grid that is written, as OpennessGrid, not smoothed
 };
 
 struct WideShader {

@@ -341,8 +341,8 @@ TEST(SurroundingsRun, TheReferenceTracesThem) {
   const LinearFrame traced = Renderer(device, scene, options).render_linear(eye.pose, eye.k);
   EXPECT_EQ(fast.instance, traced.instance);
   EXPECT_EQ(0, std::memcmp(fast.depth.data(), traced.depth.data(), fast.depth.size() * sizeof(float)));
-  // 0.88 to 0.92 for four seeds: streets are somewhat too dark under an overcast sky.
-  EXPECT_NEAR(mean_light(fast) / mean_light(traced), 1, 0.15);
+  // 0.93, 0.99 and 0.98 for seeds 5, 6 and 7.
+  EXPECT_NEAR(mean_light(fast) / mean_light(traced), 1, 0.1);
 }
 
 TEST_F(SettledStreet, IsSaidToBeLeftOutOfPagesAndSections) {

@@ -6,38 +6,22 @@
 
 namespace rubble {
 
-namespace {
-
-ShaderDefines defines_for(bool lamp) {
-  if (!lamp) return {};
-  return {{"LAMP", ""}, {"LAMP_STEPS", "8"}};
-}
-
-}  // namespace
-
 ContactPass::ContactPass(const Gl& gl)
     : gl_(gl),
+      program_(make_program(gl, "fullscreen.vert.glsl", "contact.frag.glsl", {{"LAMP_STEPS", "8"}})),
       blur_(make_program(gl, "fullscreen.vert.glsl", "contact_blur.frag.glsl")),
       block_(gl),
       empty_array_(gl) {
+  bind_samplers(gl, program_, {{"depth_values", 0}});
+  gl.UniformBlockBinding(program_.name(), gl.GetUniformBlockIndex(program_.name(), "Contact"), 0);
   bind_samplers(gl, blur_, {{"contact", 0}});
-}
-
-const GlProgram& ContactPass::program(bool lamp) {
-  GlProgram& wanted = programs_[lamp];
-  if (!wanted) {
-    wanted = make_program(gl_, "fullscreen.vert.glsl", "contact.frag.glsl", defines_for(lamp));
-    bind_samplers(gl_, wanted, {{"depth_values", 0}});
-    gl_.UniformBlockBinding(wanted.name(), gl_.GetUniformBlockIndex(wanted.name(), "Contact"), 0);
-  }
-  return wanted;
 }
 
 void ContactPass::resize(int width, int height) {
   if (width == width_ && height == height_) return;
   width_ = width, height_ = height;
   const auto make = [&](GlTexture& texture, GlFramebuffer& target) {
-    texture = make_target(gl_, GL_RG8, width, height);
+    texture = make_target(gl_, GL_R8, width, height);
     gl_.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl_.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     target = GlFramebuffer(gl_);
@@ -52,18 +36,8 @@ void ContactPass::draw(const ViewProjection& view, const GlTexture& depth, const
                        int first_row, int last_row) {
   const Intrinsics& k = view.intrinsics;
   resize(std::max(1, (k.width + 1) / 2), std::max(1, (k.height + 1) / 2));
-  const float block[12] = {kContactReach * float(std::max(k.fx, k.fy)),
-                           kContactReach,
-                           1 / kNearPlane,
-                           kNearPlane,
-                           float(k.fx),
-                           float(k.fy),
-                           float(k.cx),
-                           float(k.cy),
-                           lamp.place.x,
-                           lamp.place.y,
-                           lamp.place.z,
-                           lamp.radius};
+  const float block[12] = {float(k.fx),  float(k.fy),  float(k.cx),  float(k.cy), lamp.place.x, lamp.place.y,
+                           lamp.place.z, lamp.radius, kNearPlane, 0, 0, 0};
   gl_.NamedBufferData(block_.name(), sizeof block, block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_.name());
   gl_.Viewport(0, 0, width_, height_);
@@ -81,7 +55,7 @@ void ContactPass::draw(const ViewProjection& view, const GlTexture& depth, const
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
   };
   // The mean takes in two texels on either side, and what reads it one more.
-  run(program(lamp.on), depth, raw_target_, 4);
+  run(program_, depth, raw_target_, 4);
   run(blur_, raw_, target_, 1);
   gl_.Disable(GL_SCISSOR_TEST);
 }

@@ -1,5 +1,4 @@
-// Contact darkness and shadows of the lamp from the depth image, at half its size: see
-// shaders/contact.frag.glsl.
+// Shadows of the lamp from the depth image, at half its size: see shaders/contact.frag.glsl.
 #pragma once
 
 #include "render/camera/projection.h"
@@ -16,15 +15,14 @@ class ContactPass {
   // wanted.
   void draw(const ViewProjection& view, const GlTexture& depth, const ContactLamp& lamp, int first_row,
             int last_row);
-  // 1: open, 0: closed in; and the lamp: 1: in sight, 0: hidden, undefined if it is not on.
+  // 1: the lamp is in sight, 0: hidden.
   const GlTexture& openness() const { return openness_; }
 
  private:
-  const GlProgram& program(bool lamp);
   void resize(int width, int height);
 
   const Gl& gl_;
-  GlProgram programs_[2], blur_;  // without and with a lamp; made when first needed
+  GlProgram program_, blur_;
   GlBuffer block_;
   GlVertexArray empty_array_;
   GlTexture raw_, openness_;

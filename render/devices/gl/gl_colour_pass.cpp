@@ -214,7 +214,7 @@ void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const Vie
   if (anew) hand_over(view, surfaces);
   const GlTexture& ids = surfaces.in_raster ? raster_.id_texture() : ids_;
   const GlTexture& depth = surfaces.in_raster ? raster_.depth_texture() : depth_;
-  if (anew)
+  if (anew && lamp)
     contact_.draw(view, depth, place.contact(lamp, light), tiles_.first_row,
                   tiles_.last_row);
   if (anew && light.air_table)

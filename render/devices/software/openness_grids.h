@@ -1,4 +1,4 @@
-// Darkness in small corners and shadows of the lamp, see shading/contact.h.
+// Shadows of the lamp, see shading/contact.h.
 #pragma once
 
 #include <vector>
@@ -12,18 +12,19 @@ namespace rubble {
 
 class OpennessGrids {
  public:
-  // depth_values: near / Z, of the view's size. Only the rows [first_row, last_row) of the view are wanted.
+  // Nothing where the lamp is not on. depth_values: near / Z, of the view's size. Only the rows [first_row, last_row) of
+  // the view are wanted.
   void find(const WideShader& shader, const ViewProjection& view,
             const std::vector<float>& depth_values, const ContactLamp& lamp,
             int first_row, int last_row, ThreadPool& pool);
   OpennessGrid view() const;
 
  private:
-  void smooth(const std::vector<float>& from, std::vector<float>& to, ThreadPool& pool) const;
+  void smooth(ThreadPool& pool);
 
   int width_ = 0, height_ = 0, stride_ = 0;
   bool lamp_ = false;
-  std::vector<float> raw_corners_, raw_lamp_, corners_, lamp_seen_;
+  std::vector<float> raw_, lamp_seen_;
 };
 
 }  // namespace rubble

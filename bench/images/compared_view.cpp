@@ -44,10 +44,10 @@ Luma luma_of(const Picture& picture) { return rubble::luma_of(picture.rgb.data()
 
 }  // namespace
 
-DrawnView draw_view(Renderer& renderer, const ViewRays& view) {
+DrawnPicture draw_view(Renderer& renderer, const ViewRays& view) {
   const auto start = std::chrono::steady_clock::now();
   const std::clock_t processor = std::clock();
-  DrawnView out{renderer.render_linear(view), 0, 0};
+  DrawnPicture out{renderer.render_linear(view), 0, 0};
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   out.processor = double(std::clock() - processor) / CLOCKS_PER_SEC;
   return out;

@@ -7,11 +7,11 @@
 
 namespace rubble {
 
-struct DrawnView {
+struct DrawnPicture {
   LinearFrame frame;
   double seconds = 0, processor = 0;  // of the image alone
 };
-DrawnView draw_view(Renderer& renderer, const ViewRays& view);
+DrawnPicture draw_view(Renderer& renderer, const ViewRays& view);
 
 struct ViewComparison {
   Picture expected, found;  // developed

@@ -33,7 +33,7 @@ void save(const Request& request, const std::string& name, const Picture& pictur
     write_png(request.pictures + name + ".png", {picture.width, picture.height, picture.rgb}, 6);
 }
 
-void print_statistics(const char* name, const char* quality, const Picture& picture, const DrawnView& drawn) {
+void print_statistics(const char* name, const char* quality, const Picture& picture, const DrawnPicture& drawn) {
   const ImageStatistics s = measure_image(luma_of(picture.rgb.data(), picture.width, picture.height));
   const double megapixels = 1e-6 * picture.width * picture.height;
   std::printf("| %s | %s | %.1f | %.2f | %.0f | %.2f | %.1f | %.1f |", name, quality, s.gradient_kurtosis,
@@ -61,7 +61,7 @@ void compare(Device& device, const GalleryPicture& picture, GalleryPiles& piles,
     Renderer renderer(device, scene, options);
     return draw_view(renderer, view);
   };
-  const DrawnView slow = draw();
+  const DrawnPicture slow = draw();
   const Picture expected = develop_reference(slow.frame, gains);
   save(request, picture.name + "_reference", expected);
   print_statistics(picture.name.c_str(), "reference", expected, slow);
@@ -71,7 +71,7 @@ void compare(Device& device, const GalleryPicture& picture, GalleryPiles& piles,
   options.colour = {};
   options.bake_rays = request.bake_rays;
   options.cache_folder = DiskCache::usual_folder();
-  const DrawnView fast = draw();
+  const DrawnPicture fast = draw();
   const ViewComparison d = compare_views(slow.frame, fast.frame, gains, request.regions, threads);
   save(request, picture.name + "_fast", d.found);
   print_statistics(picture.name.c_str(), "fast", d.found, fast);

@@ -5,7 +5,7 @@
 // ray is within the box of the triangle: at grazing angles rounding could otherwise put it outside, where the order in
 // which blocks are visited would matter.
 #include "render/geometry/triangle_block.h"
-#include "render/shading/wide.h"
+#include "render/geometry/wide.h"
 
 namespace rubble::RUBBLE_ISA {
 namespace {

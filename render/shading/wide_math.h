@@ -1,7 +1,7 @@
 // Functions and vectors of lanes, and the models of surfaces and of tone for them.
 #pragma once
 
-#include "render/shading/wide.h"
+#include "render/geometry/wide.h"
 
 namespace rubble::RUBBLE_ISA {
 

@@ -1,8 +1,8 @@
-// Numbers for several pixels at a time: one lane a pixel, in a register of the instruction set that
+// Numbers for several pixels or triangles at a time: one lane each, in a register of the instruction set that
 // this is compiled for. Only plain IEEE operations, in the order written: every width gives the
 // same bits.
 //
-// The sources of this folder that include it are compiled once for each instruction set
+// The sources that include it are compiled once for each instruction set
 // (CMakeLists.txt), in a namespace of its name (RUBBLE_ISA), so that no inline function of one can
 // end up in another.
 #pragma once

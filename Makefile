@@ -35,7 +35,7 @@ help:
 	@echo "make faults     interrupt a small run at many places, continue it, compare the bytes (an hour)"
 	@echo "make pairs      any two features of a mission together, judged by their data; goes on where it stopped (docs/development/pairs.md)"
 	@echo "make verification  piles, ruins and a robot at shorter steps and with more sweeps (docs/explanation/verification.md)"
-	@echo "make determinism  compare hashes of other compilers, levels, processors and libraries (three quarters of an hour)"
+	@echo "make determinism  compare hashes of other compilers, levels, processors and libraries (half an hour, and longer for whole missions)"
 	@echo "make platforms PLATFORM=debian13  demo and tests in a bare Debian 13; or windows, riscv64, arm64 (docs/development/platforms.md)"
 	@echo "make format     clang-format over the tree"
 	@echo "make clean      remove build/ and out/"

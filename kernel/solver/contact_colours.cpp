@@ -1,7 +1,6 @@
 #include "kernel/solver/contact_colours.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace rubble {
 namespace {
@@ -12,31 +11,13 @@ constexpr std::int32_t kUncoloured = -1;  // the contact of a tower has no colou
 
 void ContactColours::begin(std::size_t bodies) {
   had_.assign(bodies + 1, 0);
+  islands_.begin(bodies);
   contacts_.clear();
 }
 
 void ContactColours::add(std::int32_t contact, std::int32_t a, std::int32_t b) {
   contacts_.push_back({contact, a, b, kUncoloured});
-}
-
-void ContactColours::find_islands() {
-  const std::int32_t beyond = std::int32_t(had_.size()) - 1;
-  joined_.reset(had_.size());
-  height_.assign(had_.size(), 0);
-  for (const Coloured& c : contacts_) {
-    // What is met for the first time lies on the other, as contacts come bottom up.
-    for (const auto& [upper, lower] : {std::pair{c.a, c.b}, std::pair{c.b, c.a}}) {
-      if (upper != beyond && height_[upper] == 0) height_[upper] = height_[lower] + 1;
-    }
-    if (c.a == beyond || c.b == beyond) continue;
-    joined_.join(c.a, c.b);
-  }
-  islands_.assign(had_.size(), {});
-  for (const Coloured& c : contacts_) ++islands_[joined_.find(moving(c))].contacts;
-  for (std::int32_t body = 0; body < beyond; ++body) {
-    Island& island = islands_[joined_.find(body)];
-    island.height = std::max(island.height, height_[body]);
-  }
+  islands_.add(a, b);
 }
 
 int ContactColours::choose(const Coloured& contact) const {
@@ -45,10 +26,10 @@ int ContactColours::choose(const Coloured& contact) const {
 }
 
 const std::vector<std::int32_t>& ContactColours::finish() {
-  find_islands();
+  islands_.finish();
   starts_.assign(1, 0);
   for (Coloured& c : contacts_) {
-    const Island& island = islands_[joined_.find(moving(c))];
+    const Island& island = islands_.of(moving(c));
     if (island.contacts < kTowerWidth * island.height) {
       ++starts_[0];
       continue;

@@ -17,7 +17,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernel/base/disjoint_sets.h"
+#include "kernel/solver/islands.h"
 
 namespace rubble {
 
@@ -40,19 +40,11 @@ class ContactColours {
   struct Coloured {
     std::int32_t contact, a, b, colour;
   };
-  // What touches; kept at the lowest number of its bodies.
-  struct Island {
-    std::int32_t contacts = 0, height = 0;
-  };
-
-  void find_islands();
   std::int32_t moving(const Coloured& c) const { return std::size_t(c.a) + 1 < had_.size() ? c.a : c.b; }
   int choose(const Coloured& contact) const;
 
   std::vector<std::uint64_t> had_;     // colours of each body so far, by bit; what does not move has none
-  DisjointSets joined_;                // bodies of the same island
-  std::vector<std::int32_t> height_;   // pieces from the ground up, each on the first that it touches; by body
-  std::vector<Island> islands_;        // by body
+  Islands islands_;
   std::vector<Coloured> contacts_;     // bottom up
   std::vector<std::int32_t> starts_;   // of each colour in sorted_; the end
   std::vector<std::int32_t> sorted_;

@@ -112,7 +112,7 @@ void ContactSolver::note_places(const std::vector<Body>& bodies) {
   if (high[1] - low[1] > high[0] - low[0]) places_.swap(sorted_places_);
 }
 
-// Joins all that touches, by its lowest number; what does not move has the number behind the last.
+// Joins all that touches; what does not move has the number behind the last.
 void ContactSolver::find_supported() {
   const std::int32_t beyond = std::int32_t(moving_.size());
   touching_.reset(moving_.size() + 1);
@@ -127,7 +127,7 @@ void ContactSolver::find_supported() {
 // inertia (not its weight) counts as at least 1/kMassRatio of what lies on it: loads at rest stay
 // exact, and momentum that goes into the light piece is lost, never gained. What nothing holds up from
 // below carries nothing, nor does what is in the air with all that it touches: momentum is kept there.
-// So does a light piece between a heavy one and what does not move, whichever way it is pressed.
+// A light piece between a heavy one and what does not move counts as heavier too, whichever way it is pressed.
 void ContactSolver::share_inertia(const std::vector<Body>& bodies) {
   find_supported();
   share_.assign(moving_.size() + 1, 1.0F);

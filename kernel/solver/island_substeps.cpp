@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <utility>
 
 namespace rubble {
 namespace {
@@ -11,56 +10,53 @@ namespace {
 constexpr bool is_power_of_two(int n) { return n > 0 && (n & (n - 1)) == 0; }
 static_assert(is_power_of_two(kIslandKinds[0].substeps) && is_power_of_two(kIslandKinds[1].substeps));
 
-bool moves(const std::vector<Body>& bodies, std::int32_t body) { return body != kGround && bodies[std::size_t(body)].awake; }
-
 }  // namespace
 
-void IslandSubsteps::find(const std::vector<Body>& bodies, const std::vector<Contact>& contacts, std::size_t ties,
-                          const std::vector<std::int32_t>& order) {
-  sets_.reset(bodies.size());
-  height_.assign(bodies.size(), 0);
-  for (const std::int32_t index : order) {
-    const Contact& c = contacts[std::size_t(index)];
-    // What is met for the first time lies on the other, as contacts come bottom up.
-    for (const auto& [upper, lower] : {std::pair{c.body_a, c.body_b}, std::pair{c.body_b, c.body_a}}) {
-      if (!moves(bodies, upper) || height_[std::size_t(upper)] != 0) continue;
-      height_[std::size_t(upper)] = lower == kGround ? 1 : height_[std::size_t(lower)] + 1;
-    }
-    if (moves(bodies, c.body_a) && moves(bodies, c.body_b)) sets_.join(c.body_a, c.body_b);
-  }
-  islands_.assign(bodies.size(), {});
-  for (const std::int32_t index : order) {
-    const Contact& c = contacts[std::size_t(index)];
-    for (const std::int32_t body : {c.body_a, c.body_b}) {
-      if (!moves(bodies, body)) continue;
-      Island& island = islands_[std::size_t(sets_.find(body))];
-      island.height = std::max(island.height, height_[std::size_t(body)]);
-      island.is_heap = island.is_heap || bodies[std::size_t(body)].tree >= 0 || std::size_t(index) >= ties;
-    }
-    const bool a = moves(bodies, c.body_a);
-    if (a || moves(bodies, c.body_b)) ++islands_[std::size_t(sets_.find(a ? c.body_a : c.body_b))].contacts;
-  }
+int IslandSubsteps::kind_of_island(std::int32_t body) {
+  const Island& island = islands_.of(body);
+  if (tied_[std::size_t(islands_.lowest_of(body))] != 0) return kHeap;
+  const auto fits = [&island](const IslandKind& kind) {
+    return island.height >= kind.height && island.contacts <= kind.contacts * island.height;
+  };
+  return int(std::find_if(std::begin(kIslandKinds), std::end(kIslandKinds), fits) - std::begin(kIslandKinds));
 }
 
 bool IslandSubsteps::split(const std::vector<Body>& bodies, const std::vector<Contact>& contacts, std::size_t ties,
                            const std::vector<std::int32_t>& order) {
-  kinds_.clear();
-  find(bodies, contacts, ties, order);
-  const auto kind_of_island = [](const Island& island) {
-    if (island.is_heap) return kHeap;
-    return int(std::find_if(std::begin(kIslandKinds), std::end(kIslandKinds), [&island](const IslandKind& kind) {
-      return island.height >= kind.height && island.contacts <= kind.contacts * island.height;
-    }) - std::begin(kIslandKinds));
+  const auto still = std::int32_t(bodies.size());
+  const auto number = [&](std::int32_t body) {
+    return body != kGround && bodies[std::size_t(body)].awake ? body : still;
   };
-  if (std::all_of(islands_.begin(), islands_.end(), [&](const Island& i) { return kind_of_island(i) == kHeap; })) return false;
+  islands_.begin(bodies.size());
+  for (const std::int32_t index : order) {
+    const Contact& c = contacts[std::size_t(index)];
+    islands_.add(number(c.body_a), number(c.body_b));
+  }
+  islands_.finish();
+  tied_.assign(bodies.size() + 1, 0);
+  for (const std::int32_t index : order) {
+    const Contact& c = contacts[std::size_t(index)];
+    for (const std::int32_t body : {number(c.body_a), number(c.body_b)}) {
+      if (body == still || (bodies[std::size_t(body)].tree < 0 && std::size_t(index) < ties)) continue;
+      tied_[std::size_t(islands_.lowest_of(body))] = 1;
+    }
+  }
   kinds_.assign(bodies.size(), std::uint8_t(kHeap));
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies[i].awake) kinds_[i] = std::uint8_t(kind_of_island(islands_[std::size_t(sets_.find(std::int32_t(i)))]));
+  bool any = false;
+  for (std::int32_t body = 0; body < still; ++body) {
+    if (number(body) == still) continue;
+    const int kind = kind_of_island(body);
+    kinds_[std::size_t(body)] = std::uint8_t(kind), any = any || kind != kHeap;
+  }
+  if (!any) {
+    kinds_.clear();
+    return false;
   }
   for (std::vector<std::int32_t>& group : groups_) group.clear();
   for (const std::int32_t index : order) {
-    const Contact* c = std::size_t(index) < ties ? &contacts[std::size_t(index)] : nullptr;
-    const int kind = c == nullptr ? kHeap : std::min(kind_of(c->body_a), c->body_b == kGround ? kHeap : kind_of(c->body_b));
+    const Contact& c = contacts[std::size_t(index)];
+    // Of two bodies one may stay, which has no island.
+    const int kind = std::min(kind_of(c.body_a), c.body_b == kGround ? kHeap : kind_of(c.body_b));
     groups_[kind].push_back(index);
   }
   return true;

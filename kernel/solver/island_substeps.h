@@ -1,4 +1,4 @@
-// Which islands (what touches, also through others) are solved apart, in more substeps than others.
+// Which islands are solved apart, in more substeps than others.
 //
 // One sweep a substep carries a load a few pieces up or down, so what stands high on few contacts gives way like a soft
 // spring: a column of twenty bricks leans by itself, stacked sheets creep by centimetres. Such islands have few contacts,
@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernel/base/disjoint_sets.h"
 #include "kernel/collision/body.h"
 #include "kernel/collision/contact.h"
+#include "kernel/solver/islands.h"
 
 namespace rubble {
 
@@ -36,19 +36,11 @@ class IslandSubsteps {
   int kind_of(std::int32_t body) const { return kinds_.empty() ? kHeap : kinds_[std::size_t(body)]; }
 
  private:
-  // Kept at the lowest number of its bodies.
-  struct Island {
-    std::int32_t contacts = 0, height = 0;
-    bool is_heap = false;
-  };
+  int kind_of_island(std::int32_t body);
 
-  void find(const std::vector<Body>& bodies, const std::vector<Contact>& contacts, std::size_t ties,
-            const std::vector<std::int32_t>& order);
-
-  DisjointSets sets_;
-  std::vector<std::int32_t> height_;  // pieces from the ground up, each on the first that it touches; by body
-  std::vector<Island> islands_;       // by body
-  std::vector<std::uint8_t> kinds_;   // by body; none where all are heaps
+  Islands islands_;
+  std::vector<std::uint8_t> tied_;   // with a link of a tree or a tie; by the lowest body of an island
+  std::vector<std::uint8_t> kinds_;  // by body; none where all are heaps
   std::vector<std::int32_t> groups_[kIslandKindCount + 1];
 };
 

@@ -143,7 +143,7 @@ TEST(IslandSubsteps, WhatBecomesWiderIsNotShaken) {
     world.step();
     for (int k = 1; k < 15; ++k) most = std::max(most, double(norm(world.piece(k).linear_velocity)));
   }
-  EXPECT_LT(most, 0.01);
+  EXPECT_LT(most, 0.001);  // 0.011 where impulses are not scaled; unit: m/s
   EXPECT_NEAR(world.piece(14).world_from_body.translation.z, before, 0.0005);
 }
 

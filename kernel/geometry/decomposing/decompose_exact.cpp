@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <tuple>
 
+#include "kernel/base/disjoint_sets.h"
 #include "kernel/geometry/hull.h"
 
 namespace rubble::decomposing {
@@ -45,23 +45,16 @@ Body weld(const TriangleMesh& mesh) {
   return body;
 }
 
-int find_root(std::vector<int>& parent, int i) {
-  while (parent[std::size_t(i)] != i) i = parent[std::size_t(i)] = parent[std::size_t(parent[std::size_t(i)])];
-  return i;
-}
-
 // Triangles that hang together by corners; in the order of their first triangles.
 std::vector<Body> split(const Body& whole) {
-  std::vector<int> parent(whole.corners.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  for (const Triangle& t : whole.triangles)
-    for (const int corner : {t[1], t[2]})
-      parent[std::size_t(find_root(parent, corner))] = find_root(parent, t[0]);
+  DisjointSets joined;
+  joined.reset(whole.corners.size());
+  for (const Triangle& t : whole.triangles) joined.join(t[0], t[1]), joined.join(t[0], t[2]);
   std::vector<Body> bodies;
   std::map<int, std::size_t> body_of;
   std::vector<int> place(whole.corners.size(), -1);
   for (const Triangle& t : whole.triangles) {
-    const auto [at, is_new] = body_of.try_emplace(find_root(parent, t[0]), bodies.size());
+    const auto [at, is_new] = body_of.try_emplace(joined.find(t[0]), bodies.size());
     if (is_new) bodies.emplace_back();
     Body& body = bodies[at->second];
     Triangle own{};

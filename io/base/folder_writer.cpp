@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 FolderWriter::FolderWriter(std::string final_path, const std::vector<std::string>& folders,
                            int threads)
-    : path_(std::move(final_path)), part_(path_ + ".part"), tasks_(threads) {
+    : path_(std::move(final_path)), part_(path_ + ".part"), folders_(folders), tasks_(threads) {
   std::error_code error;
   if (fs::exists(fs::symlink_status(path_, error)))
     throw RunError("cannot create " + path_ + ": something of that name is there");
@@ -59,6 +59,10 @@ void FolderWriter::wait() { tasks_.finish(); }
 
 void FolderWriter::finish() {
   tasks_.finish();
+  // A folder without a file says nothing, and nothing states it as ours when the next run or export replaces this one.
+  std::error_code filled;
+  for (const std::string& folder : folders_)
+    for (fs::path path = folder; !path.empty() && fs::remove(fs::path(part_) / path, filled) && !filled;) path = path.parent_path();
   commit_folder(part_, path_);
   finished_ = true;
 }

@@ -33,12 +33,13 @@ class FolderWriter {
     append(name, [bytes = std::move(bytes)] { return bytes; }, nullptr);
   }
   void wait();  // until all that was asked for is written
-  void finish();
+  void finish();  // folders without a file are left out
 
   const std::string& path() const { return path_; }
 
  private:
   std::string path_, part_;
+  std::vector<std::string> folders_;
   int lock_ = -1;  // on "NAME.part"
   bool finished_ = false;
   OrderedTasks tasks_;

@@ -76,7 +76,8 @@ bool is_scene_file(const std::string& name) {
   const std::string folder = slash == std::string::npos ? "" : name.substr(0, slash);
   if (folder == "meshes") return ends(name, ".obj") || ends(name, ".mtl") || ends(name, ".png") || ends(name, ".hfield");
   if (folder == "models" || folder == "robots") return ends(name, ".urdf");
-  return folder.compare(0, 7, "robots/") == 0 && ends(folder, "_meshes") && (ends(name, ".obj") || ends(name, ".mtl"));
+  return folder.compare(0, 7, "robots/") == 0 && ends(folder, "_meshes") &&
+         (ends(name, ".obj") || ends(name, ".mtl") || ends(name, ".stl"));
 }
 
 std::vector<std::string> export_pile(const ExportModel& model, const std::string& name,

@@ -70,8 +70,10 @@ TEST_F(Readers, ExportWritesEveryFormatOfAFinishedRun) {
   EXPECT_TRUE(read_file(out + "/pile.stl") == read_file(file("pile.stl")));
   const Outcome again = run_rubble("export " + file("") + " --format ply,sdf --out " + out);
   EXPECT_EQ(again.exit_code, 1) << "the folder is not empty";
-  const Outcome forced = run_rubble("export " + file("") + " --format ply,sdf --force --out " + out);
-  EXPECT_EQ(forced.exit_code, 0) << forced.err;
+  for (const char* choice : {" --format ply,sdf", "", " --format urdf --dynamic all", ""}) {
+    const Outcome forced = run_rubble("export " + file("") + choice + " --force --out " + out);
+    EXPECT_EQ(forced.exit_code, 0) << choice << ": " << forced.err;
+  }
   const Outcome unknown = run_rubble("export " + file("") + " --format fbx");
   EXPECT_EQ(unknown.exit_code, 1);
   EXPECT_NE(unknown.err.find("stl, ply, obj, glb, sdf, mjcf, usd, urdf"), std::string::npos) << unknown.err;

@@ -83,5 +83,17 @@ TEST_F(RemoveFiles, OfAFolderThatCannotBeMade) {
   EXPECT_FALSE(there("tum"));
 }
 
+// One without a file is not there: nobody would remove it.
+TEST_F(RemoveFiles, FoldersOfARecordingHaveFiles) {
+  FolderWriter files(at("tum"), {"rgb", "depth", "deep/er", "deep/full"}, 1);
+  files.write("rgb/0.png", "a");
+  files.write("deep/full/1.png", "b");
+  files.finish();
+  EXPECT_TRUE(there("tum/rgb/0.png"));
+  EXPECT_TRUE(there("tum/deep/full/1.png"));
+  EXPECT_FALSE(there("tum/depth"));
+  EXPECT_FALSE(there("tum/deep/er"));
+}
+
 }  // namespace remove_files_test
 }  // namespace rubble

@@ -367,5 +367,25 @@ TEST_F(SimScenes, CornersOfFlatMeshesAreShared) {
   }
 }
 
+// `rubble export --force` removes what it knows; what else is there is somebody's, and refuses the export.
+TEST_F(SimScenes, TheNextExportKnowsEveryFileAndFolder) {
+  for (const bool empty : {false, true}) {
+    if (empty) model_.sim = {};
+    ScratchFolder folder;
+    for (const MeshFormat& format : mesh_formats()) {
+      if (!format.is_folder) continue;
+      export_pile(model_, format.name, folder.path());
+      const std::string whole = folder / format.name;
+      for (const auto& entry : std::filesystem::recursive_directory_iterator(whole)) {
+        const std::string name = std::filesystem::relative(entry.path(), whole).string();
+        if (entry.is_directory())
+          EXPECT_FALSE(std::filesystem::is_empty(entry.path())) << format.name << ": " << name;
+        else
+          EXPECT_TRUE(is_scene_file(name)) << format.name << ": " << name;
+      }
+    }
+  }
+}
+
 }  // namespace sim_scene_test
 }  // namespace rubble

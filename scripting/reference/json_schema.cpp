@@ -98,7 +98,7 @@ Json value_schema(const Key& key) {
   if (!key.unit_text.empty()) json["description"] = key.doc_text + " unit: " + key.unit_text;
   json.update(std::visit(TypeOf{key.range}, key.bind(0)));
   const Slot slot = key.bind(0);
-  if (!key.required) json["default"] = Json::parse(value_to_json(read_slot(slot)));
+  if (!key.required) json["default"] = Json::parse(slot_to_json(slot));
   if (const auto* tables = std::get_if<TableList>(&slot)) {
     tables->resize(1);  // so that an item's defaults can be read
     json["items"] = object_schema(tables->make_item(0), "");

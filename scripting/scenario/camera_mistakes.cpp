@@ -80,7 +80,7 @@ std::string find_key_of_one_camera(const MissionForm& form) {
     const std::string group = key.path.substr(0, key.path.find('.'));
     if (group != "camera" && group != "depth_sensor" && group != "event_camera") continue;
     if (key.kind != KeyKind::value) continue;
-    if (value_to_json(read_slot(key.bind(0))) != value_to_json(read_slot(was.find(key.path)->bind(0))))
+    if (slot_to_json(key.bind(0)) != slot_to_json(was.find(key.path)->bind(0)))
       return key.path;
   }
   return "";

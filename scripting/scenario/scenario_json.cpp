@@ -31,11 +31,18 @@ Json json_of(const Value& value) {
   }
 }
 
+// Lua's empty table is a list or a map; of a key that is a map, it is one.
+Json json_of(const Slot& slot) {
+  Json json = json_of(read_slot(slot));
+  const bool map = std::holds_alternative<TextMap*>(slot) || std::holds_alternative<NumberMap*>(slot);
+  return map && json.empty() ? Json::object() : json;
+}
+
 Json json_of_group(const Schema& schema, const std::string& pattern, std::size_t index) {
   Json object = Json::object();
   for (const Key* key : schema.children(pattern)) {
     if (key->kind == KeyKind::value) {
-      object[key->name()] = json_of(read_slot(key->bind(index)));
+      object[key->name()] = json_of(key->bind(index));
     } else if (key->kind == KeyKind::group) {
       object[key->name()] = json_of_group(schema, key->path, index);
     } else {
@@ -75,7 +82,7 @@ int line_of_byte(const std::string& text, std::size_t byte) {
 
 }  // namespace
 
-std::string value_to_json(const Value& value) { return json_of(value).dump(); }
+std::string slot_to_json(const Slot& slot) { return json_of(slot).dump(); }
 
 std::string members_to_json(const Schema& schema) { return json_of_group(schema, "", 0).dump(2); }
 

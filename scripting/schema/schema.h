@@ -201,7 +201,7 @@ std::string nearest_name(const std::string& written, const std::vector<std::stri
 // What a schema's members hold now, in the schema's order, indented by two spaces.
 std::string members_to_json(const Schema& schema);
 
-std::string value_to_json(const Value& value);  // lists as arrays, named fields as objects
+std::string slot_to_json(const Slot& slot);  // lists as arrays, maps and named fields as objects
 
 // Throws InputError with the line when `text` is not JSON.
 Value parse_json(const std::string& text, const std::string& file);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -200,8 +201,10 @@ std::string failure(const Json& schema, const Json& value, const std::string& pa
   if (type == "object") {
     if (!value.is_object()) return path + " is no object";
     for (const auto& [name, member] : value.items()) {
-      if (!schema["properties"].contains(name)) return path + "." + name + " is unknown";
-      if (auto f = failure(schema["properties"][name], member, path + "." + name); !f.empty())
+      const bool listed = schema.contains("properties") && schema["properties"].contains(name);
+      if (!listed && !(schema.contains("additionalProperties") && schema["additionalProperties"].is_object()))
+        return path + "." + name + " is unknown";
+      if (auto f = failure(listed ? schema["properties"][name] : schema["additionalProperties"], member, path + "." + name); !f.empty())
         return f;
     }
     for (const Json& name : schema.value("required", Json::array()))
@@ -229,6 +232,25 @@ TEST(JsonSchema, AcceptsTheDefaultScenarioAndRejectsMistakes) {
   EXPECT_EQ(spoiled("/settle/schedule", "plane"), "$.settle.schedule is no choice");
   EXPECT_EQ(spoiled("/trajectory/waypoints", Json::array({Json::object()})),
             "$.trajectory.waypoints[] lacks \"position\"");
+}
+
+// Also those of items of lists, of which the default scenario has none.
+TEST(JsonSchema, AcceptsItsOwnDefaults) {
+  int count = 0;
+  const std::function<void(const Json&, const std::string&)> walk = [&](const Json& node, const std::string& path) {
+    if (node.is_object() && node.contains("default") && node.contains("description")) {
+      ++count;
+      EXPECT_EQ(failure(node, node["default"], path), "");
+    }
+    if (!node.is_structured()) return;
+    for (const auto& [name, member] : node.items()) walk(member, path + "/" + name);
+  };
+  walk(Json::parse(mission_json_schema()), "");
+  EXPECT_GT(count, 500);
+  Scenario scenario;
+  scenario.robots.resize(1);
+  scenario.robots[0].efforts = {{"wheel", 5}};
+  EXPECT_EQ(failure(Json::parse(mission_json_schema()), Json::parse(scenario_to_json(scenario)), "$"), "");
 }
 
 TEST(JsonSchema, HoldsTheDefaults) {

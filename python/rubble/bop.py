@@ -9,6 +9,7 @@ import argparse
 import csv
 import io
 import json
+import math
 import subprocess
 import sys
 from pathlib import Path
@@ -150,10 +151,44 @@ def box(np, mask):
     return [int(columns[0]), int(rows[0]), int(columns[-1] - columns[0] + 1), int(rows[-1] - rows[0] + 1)]
 
 
-def read_exr(np, path):
+def read_exr(np, path, camera):
     import OpenEXR  # type: ignore[import-not-found,unused-ignore]
-    with OpenEXR.File(str(path)) as file:
-        return next(iter(file.channels().values())).pixels.astype(np.float64)
+    try:
+        with OpenEXR.File(str(path)) as file:
+            pixels = next(iter(file.channels().values())).pixels.astype(np.float64)
+    except Exception as error:  # it has no class of its own
+        raise BopError(f"{path}: cannot be read: {' '.join(str(error).split()) or type(error).__name__}") from error
+    if pixels.shape != (camera["height"], camera["width"]):
+        raise BopError(f"{path}: has {pixels.shape} pixels: expected {(camera['height'], camera['width'])}, as camera.json says")
+    return pixels
+
+
+def read_png(path, camera):
+    """Its bytes, of a whole picture."""
+    from PIL import Image  # type: ignore[import-not-found,unused-ignore]
+    content = path.read_bytes()
+    try:
+        with Image.open(io.BytesIO(content)) as picture:
+            picture.load()
+            size = picture.size
+    except Exception as error:
+        raise BopError(f"{path}: cannot be read: {' '.join(str(error).split())}") from error
+    if size != (camera["width"], camera["height"]):
+        raise BopError(f"{path}: has {size} pixels: expected {(camera['width'], camera['height'])}, as camera.json says")
+    return content
+
+
+def read_poses(path):
+    """Number, rotation as w x y z, and place, of each row."""
+    with open(path, encoding="ascii") as opened:
+        for line, row in enumerate(csv.DictReader(opened), 2):
+            try:
+                values = [float(row[key]) for key in ("qw", "qx", "qy", "qz", "x", "y", "z")]
+                if not all(map(math.isfinite, values)) or abs(sum(v * v for v in values[:4]) - 1) > 1e-3:
+                    raise ValueError("a pose that is none")
+                yield int(row["frame"]), values[:4], values[4:]
+            except (KeyError, TypeError, ValueError) as error:
+                raise BopError(f"{path}:{line}: {error}: expected frame, x, y, z and a unit quaternion") from error
 
 
 def check(run, frames):
@@ -163,6 +198,9 @@ def check(run, frames):
     if not (frames / "instance").is_dir():
         raise BopError(f"{frames}: has no instances: camera.channels = {{ \"instance\" }}")
     camera = load(frames / "camera.json")
+    missing = [key for key in ("lens", "distortion", "width", "height", "fx", "fy", "cx", "cy") if key not in camera]
+    if missing:
+        raise BopError(f"{frames}/camera.json: lacks {', '.join(missing)}")
     if camera["lens"] != "plumb_bob" or any(camera["distortion"]):
         raise BopError(f"{frames}/camera.json: has a lens with distortion: BOP holds pinhole cameras alone")
     scenario = load(run / "manifest.json")["scenario"]
@@ -180,24 +218,22 @@ def write_scene(np, run, folder, camera, pieces):
         (scene / name).mkdir(parents=True)
     optical = np.array([[0.0, 0, 1], [-1, 0, 0], [0, -1, 0]])  # camera body from optical frame
     cameras, truths, infos = {}, {}, {}
-    with open(frames / "poses.csv", encoding="ascii") as opened:
-        rows = list(csv.DictReader(opened))
-    for row in rows:
-        number = int(row["frame"])
+    rows = list(read_poses(frames / "poses.csv"))
+    for number, turn, place in rows:
         image = f"{number:06d}"
-        rotation = (matrix(np, *(float(row[key]) for key in ("qw", "qx", "qy", "qz"))) @ optical).T
-        offset = -rotation @ np.array([float(row[key]) for key in "xyz"])
-        depth = np.nan_to_num(read_exr(np, frames / "depth" / (image + ".exr"))) * (MM / DEPTH_STEP)
+        rotation = (matrix(np, *turn) @ optical).T
+        offset = -rotation @ np.array(place)
+        depth = np.nan_to_num(read_exr(np, frames / "depth" / (image + ".exr"), camera)) * (MM / DEPTH_STEP)
         Image.fromarray(np.clip(np.rint(depth), 0, 65535).astype(np.uint16)).save(scene / "depth" / (image + ".png"))
-        (scene / "rgb" / (image + ".png")).write_bytes((frames / "rgb" / (image + ".png")).read_bytes())
+        (scene / "rgb" / (image + ".png")).write_bytes(read_png(frames / "rgb" / (image + ".png"), camera))
         cameras[str(number)] = {"cam_K": [camera["fx"], 0, camera["cx"], 0, camera["fy"], camera["cy"], 0, 0, 1], "depth_scale": DEPTH_STEP,
                                 "cam_R_w2c": rotation.ravel().tolist(), "cam_t_w2c": (offset * MM).tolist()}
-        instances = read_exr(np, frames / "instance" / (image + ".exr"))
+        instances = read_exr(np, frames / "instance" / (image + ".exr"), camera)
         truths[str(number)], infos[str(number)] = [], []
         for piece in sorted({int(i) for i in np.unique(instances)} & set(pieces)):
-            thing, turn, place = pieces[piece]
+            thing, turned, at_rest = pieces[piece]
             visible = instances == piece
-            to_camera, at = rotation @ turn, rotation @ place + offset
+            to_camera, at = rotation @ turned, rotation @ at_rest + offset
             whole = silhouette(np, camera, thing["vertices"] @ to_camera.T + at, thing["triangles"]) | visible
             index = len(truths[str(number)])
             for name, mask in (("mask", whole), ("mask_visib", visible)):
@@ -216,7 +252,10 @@ def main(arguments=None):
     parser.add_argument("run", type=Path, help="the output folder of a run with outputs.frames and the channel instance")
     parser.add_argument("-o", "--out", type=Path, required=True, help="the new dataset")
     parser.add_argument("--program", default="rubble", help="default: rubble")
-    options = parser.parse_args(arguments)
+    try:
+        options = parser.parse_args(arguments)
+    except SystemExit as end:  # 2, that of argparse, is another code in all other commands
+        return 1 if end.code else 0
     try:
         try:
             import numpy as np
@@ -235,6 +274,9 @@ def main(arguments=None):
         count = write_scene(np, options.run, options.out, camera, pieces)
     except (BopError, OSError) as error:
         print(f"rubble.bop: {error}", file=sys.stderr)
+        return 1
+    except Exception as error:  # of a picture or a table that is damaged
+        print(f"rubble.bop: {options.run}: cannot be taken: {type(error).__name__}: {' '.join(str(error).split())}", file=sys.stderr)
         return 1
     print(f"{options.out}: {len(objects)} objects, {count} images")
     return 0

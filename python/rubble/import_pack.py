@@ -6,11 +6,13 @@ pack is checked by `rubble assets check my_pack`. What is left out is printed. E
 taken, named.
 """
 import argparse
+import math
 import sys
 from pathlib import Path
 
 USD = (".usd", ".usda", ".usdc", ".usdz")
 MOST_VERTICES = 2_000_000
+FARTHEST = 1e5  # of a corner from the origin; unit: m
 
 
 class PackError(Exception):
@@ -49,6 +51,8 @@ def read_usd(path, notes):
     except Tf.ErrorException as error:
         raise PackError(f"{path}: cannot be read as USD: {str(error).strip().splitlines()[-1]}") from error
     unit = UsdGeom.GetStageMetersPerUnit(stage)
+    if not 0 < unit < math.inf:
+        raise PackError(f"{path}: metersPerUnit is {unit:g}: expected a length above 0")
     turn = Gf.Matrix4d(1)
     if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.y:
         turn.SetRotate(Gf.Rotation(Gf.Vec3d(1, 0, 0), 90))
@@ -115,11 +119,24 @@ def read_mjcf(path, notes):
         notes.append(f"{shapes} geoms that are no meshes")
 
 
+def checked(path, assets):
+    """The assets, or an error that names the mesh whose corner, colour or mass is no number."""
+    for asset in assets:
+        for i, corner in enumerate(asset.vertices):
+            if not all(abs(x) < FARTHEST for x in corner):
+                raise PackError(f"{path}: {asset.name}: corner {i} is at {', '.join(f'{x:g}' for x in corner)} m: expected numbers within {FARTHEST:g}")
+        if asset.colour and not all(0 <= c < math.inf for c in asset.colour):
+            raise PackError(f"{path}: {asset.name}: its colour is {', '.join(f'{c:g}' for c in asset.colour)}: expected numbers from 0 to 1")
+        if asset.mass is not None and not 0 < asset.mass < math.inf:
+            raise PackError(f"{path}: {asset.name}: its mass is {asset.mass:g} kg: expected a number above 0")
+        yield asset
+
+
 def write_obj(path, asset):
     lines = [f"# From {asset.name} by rubble.import_pack"]
     if asset.colour:
         lines += [f"mtllib {path.stem}.mtl", "usemtl surface"]
-        path.with_suffix(".mtl").write_text("newmtl surface\nKd %.6f %.6f %.6f\n" % tuple(asset.colour), encoding="ascii")
+        path.with_suffix(".mtl").write_text("newmtl surface\nKd %.6f %.6f %.6f\n" % tuple(min(c, 1) for c in asset.colour), encoding="ascii")
     lines += ["v %.9g %.9g %.9g" % v for v in asset.vertices]
     lines += ["f " + " ".join(str(i + 1) for i in face) for face in asset.faces]
     path.write_text("\n".join(lines) + "\n", encoding="ascii")
@@ -157,19 +174,26 @@ def main(arguments=None):
     parser.add_argument("--name", help="of the pack; default: that of the folder")
     parser.add_argument("--material", default="reinforced_concrete", help="of all assets; default: reinforced_concrete")
     parser.add_argument("--force", action="store_true", help="replace a pack that is there")
-    options, notes = parser.parse_args(arguments), []
+    notes = []
+    try:
+        options = parser.parse_args(arguments)
+    except SystemExit as end:  # 2, that of argparse, is another code in all other commands
+        return 1 if end.code else 0
     try:
         if not options.file.is_file():
             raise PackError(f"{options.file}: no such file")
         if options.file.suffix.lower() in USD:
-            assets = list(read_usd(options.file, notes))
+            assets = list(checked(options.file, read_usd(options.file, notes)))
         elif options.file.suffix.lower() == ".xml":
-            assets = list(read_mjcf(options.file, notes))
+            assets = list(checked(options.file, read_mjcf(options.file, notes)))
         else:
             raise PackError(f"{options.file}: expected {', '.join(USD)} or .xml")
         count = write_pack(options.out, assets, options, options.file)
     except (PackError, OSError) as error:
         print(f"rubble.import_pack: {error}", file=sys.stderr)
+        return 1
+    except Exception as error:  # of a reader that trusts its file
+        print(f"rubble.import_pack: {options.file}: cannot be taken: {type(error).__name__}: {' '.join(str(error).split())}", file=sys.stderr)
         return 1
     for note in notes:
         print(f"{options.file}: left out: {note}", file=sys.stderr)

@@ -10,6 +10,7 @@ import sys
 
 STRAIGHT = 0.01      # of a direction from an axis; unit: rad
 LEAST = 0.01         # of a part's sides; unit: m
+FARTHEST = 1e5      # of a part from the origin; unit: m
 MOST_STOREYS = 12
 WORDS = {"concrete": ("concrete", "beton", "béton", "hormig"), "block": ("block", "aac", "ytong", "porenbeton"),
          "timber": ("timber", "wood", "holz", "bois", "madera"),
@@ -22,6 +23,8 @@ class PlanError(Exception):
 
 def number(value):
     """Metres to the millimetre, without zeros at the end."""
+    if not abs(value) < FARTHEST:
+        raise ValueError(f"{value} m: expected a number of metres within {FARTHEST:g}")
     text = f"{value:.3f}".rstrip("0").rstrip(".")
     return "0" if text == "-0" else text
 
@@ -41,10 +44,10 @@ def plain(name):
 
 
 class Plan:
-    """Lines by storey; what is left out."""
+    """Lines by storey; what is left out. place: the entity that is read, for messages."""
 
     def __init__(self, path, turn):
-        self.path, self.heights, self.lines, self.notes = path, [], {}, []
+        self.path, self.heights, self.lines, self.notes, self.place = path, [], {}, [], ""
         self.cos, self.sin = math.cos(math.radians(turn)), math.sin(math.radians(turn))
 
     def add(self, storey, text):
@@ -55,6 +58,8 @@ class Plan:
 
     def is_along_x(self, a, b, what):
         """Of a direction in the plan; an error that names the entity where it is along neither axis."""
+        if not all(abs(x) < FARTHEST for x in (*a[:2], *b[:2])):
+            raise PlanError(f"{self.path}: {what}: lies at {a[0]:g}, {a[1]:g} and {b[0]:g}, {b[1]:g} m: expected numbers within {FARTHEST:g}")
         angle = math.atan2(b[1] - a[1], b[0] - a[0])
         quarter = round(angle / (math.pi / 2))
         rest = angle - quarter * math.pi / 2
@@ -83,6 +88,9 @@ class Plan:
             raise PlanError(f"{self.path}: has no wall and no column")
         if not 0 < len(self.heights) <= MOST_STOREYS:
             raise PlanError(f"{self.path}: has {len(self.heights)} storeys: expected 1 to {MOST_STOREYS}")
+        for storey, height in enumerate(self.heights):
+            if not LEAST <= height < FARTHEST:
+                raise PlanError(f"{self.path}: storey {storey} is {height:.3f} m high: expected {LEAST} m or more")
         text = [f"# From {plain(self.path.rsplit('/', 1)[-1])} by rubble.import_plan; lengths in metres."]
         text += [line("storey", float(height)) for height in self.heights]
         for storey in sorted(self.lines):
@@ -120,6 +128,7 @@ class IfcReader:
 
     def box(self, entity):
         """Corners in the entity's own frame (unit: m), and that frame in the world."""
+        self.plan.place = self.what(entity)
         try:
             shape = self.ifc.geom.create_shape(self.settings, entity)
         except Exception as error:
@@ -145,11 +154,12 @@ class IfcReader:
 
     def read(self):
         # Storeys by their floors. A level where nothing stands, such as that of a roof, ends the one below.
-        levels = sorted(((s.Elevation or 0.0) * self.scale, s) for s in self.model.by_type("IfcBuildingStorey"))
+        levels = sorted((((s.Elevation or 0.0) * self.scale, s) for s in self.model.by_type("IfcBuildingStorey")), key=lambda level: level[0])
         if not levels:
             raise PlanError(f"{self.path}: has no IfcBuildingStorey")
         standing, walls = {}, []
         for entity in self.model.by_type("IfcWall") + self.model.by_type("IfcColumn") + self.model.by_type("IfcBeam") + self.model.by_type("IfcSlab"):
+            self.plan.place = self.what(entity)
             storey = self.ifc.util.element.get_container(entity, ifc_class="IfcBuildingStorey")
             if storey is None:
                 self.plan.notes.append(f"{self.what(entity)}: is in no storey")
@@ -179,6 +189,7 @@ class IfcReader:
 
     def add(self, entity, storey, box, floor):
         low, high, to_world = box
+        self.plan.place = self.what(entity)
         what, material, name = self.what(entity), self.material(entity), plain(entity.Name)
         middle, half = [(a + b) / 2 for a, b in zip(low, high)], [(b - a) / 2 for a, b in zip(low, high)]
         if entity.is_a("IfcColumn"):
@@ -199,6 +210,8 @@ class IfcReader:
             return
         along_x = self.plan.wall(storey, a[:2], b[:2], thickness, material, name, what)
         for relation in entity.HasOpenings:
+            if relation.RelatedOpeningElement is None:
+                raise PlanError(f"{self.path}: {what}: its #{relation.id()} {relation.is_a()} names no opening")
             self.add_opening(relation.RelatedOpeningElement, storey, (a, b), along_x, floor)
 
     def add_opening(self, opening, storey, wall, along_x, floor):
@@ -252,12 +265,16 @@ class DxfReader:
             self.drawing = ezdxf.readfile(path)
         except (IOError, ezdxf.DXFError, ValueError, KeyError, TypeError, AttributeError, IndexError) as error:
             raise PlanError(f"{path}: cannot be read as DXF: {error}") from error
+        units = self.drawing.header.get("$INSUNITS", 0)
         if options.unit:
             self.scale = UNITS[options.unit]
-        elif self.drawing.units:
-            self.scale = ezdxf.units.conversion_factor(self.drawing.units, ezdxf.units.M)
-        else:
+        elif not units:
             raise PlanError(f"{path}: does not state its unit ($INSUNITS): give --unit {', '.join(UNITS)}")
+        else:
+            try:
+                self.scale = ezdxf.units.conversion_factor(units, ezdxf.units.M)
+            except Exception as error:
+                raise PlanError(f"{path}: $INSUNITS is {units}, which is no unit of length: give --unit {', '.join(UNITS)}") from error
 
     def is_wall(self, layer):
         if self.options.layer:
@@ -270,6 +287,7 @@ class DxfReader:
         for entity in self.drawing.modelspace():
             kind, layer, what = entity.dxftype(), entity.dxf.layer, f"{entity.dxftype()} #{entity.dxf.handle} on layer {entity.dxf.layer}"
             layers.add(layer)
+            self.plan.place = what
             if not self.is_wall(layer):
                 continue
             if kind == "LINE":
@@ -292,6 +310,8 @@ class DxfReader:
         walls, faces = [], []
         for points, closed, what in self.lines():
             points = [self.plan.turned(p[0] * self.scale, p[1] * self.scale) for p in points]
+            if not all(abs(x) < FARTHEST for point in points for x in point):
+                raise PlanError(f"{self.path}: {what}: has a corner that is not within {FARTHEST:g} m: is the unit right?")
             if closed and len(points) == 4 and thickness is None:
                 wall = self.rectangle(points)
                 if wall:
@@ -373,7 +393,10 @@ def parse(arguments):
 
 
 def main(arguments=None):
-    options = parse(arguments)
+    try:
+        options = parse(arguments)
+    except SystemExit as end:  # 2, that of argparse, is another code in all other commands
+        return 1 if end.code else 0
     plan = Plan(options.file, options.turn)
     try:
         if options.file.lower().endswith(".dxf"):
@@ -390,6 +413,10 @@ def main(arguments=None):
             sys.stdout.write(text)
     except (PlanError, OSError) as error:
         print(f"rubble.import_plan: {error}", file=sys.stderr)
+        return 1
+    except Exception as error:  # of a reader that trusts its file
+        place = f"{options.file}: {plan.place}: " if plan.place else f"{options.file}: "
+        print(f"rubble.import_plan: {place}cannot be taken: {type(error).__name__}: {' '.join(str(error).split())}", file=sys.stderr)
         return 1
     for note in plan.notes:
         print(f"{options.file}: left out: {note}", file=sys.stderr)

@@ -327,7 +327,23 @@ def bop_has_poses_of_objects():
     need(objects > 20, "%d objects", objects)
 
 
-CHECKS = [bop_has_poses_of_objects, rosbags_reads_the_folder, robots_are_as_rep_105_says, mcap_has_one_schema_for_each_type, nerfstudio_projects_points,
+def jsonschema_accepts_all_missions():
+    """What `rubble check` prints of each script fits `rubble check --schema`; a mistake does not."""
+    from jsonschema import Draft202012Validator
+    schema = json.loads((DATA / "missions" / "schema.json").read_text(encoding="utf-8"))
+    Draft202012Validator.check_schema(schema)
+    validator, count = Draft202012Validator(schema), 0
+    for path in sorted((DATA / "missions").glob("*.lua.json")):
+        mission = json.loads(path.read_text(encoding="utf-8"))
+        for error in validator.iter_errors(mission):
+            need(False, "%s: %s: %s", path.name, error.json_path, error.message)
+        count += 1
+    need(count > 80, "%d missions", count)
+    for key, value in (("seed", "one"), ("pile", {"layres": 2}), ("camera", {"width": -1})):
+        need(not validator.is_valid({**mission, key: value}), "%s = %s is accepted", key, value)
+
+
+CHECKS = [jsonschema_accepts_all_missions, bop_has_poses_of_objects, rosbags_reads_the_folder, robots_are_as_rep_105_says, mcap_has_one_schema_for_each_type, nerfstudio_projects_points,
           nerfstudio_has_all_cameras, pycolmap_reads_rigs, pycolmap_triangulates_with_rigs, pycocotools_finds_masks,
           pykitti_reads_odometry, webdataset_decodes, lerobot_is_read_by_pyarrow, lerobot_has_episodes_of_environments,
           lerobot_doctor_finds_no_fault, mcap_ros2_decodes_all_topics,

@@ -16,8 +16,8 @@ def main():
         print("skipped: the packages of tests/datasets/requirements-imports.txt cannot be installed here")
         return SKIPPED
     environment = dict(os.environ, PYTHONDONTWRITEBYTECODE="1")
-    return max(subprocess.run([python, HERE / script, program, folder / "data"], check=False, env=environment).returncode
-               for script in ("plans.py", "packs.py"))
+    return max(subprocess.run([python, HERE / script, program, folder / Path(script).stem], check=False, env=environment).returncode
+               for script in ("plans.py", "packs.py", "damage.py"))
 
 
 if __name__ == "__main__":

@@ -66,11 +66,16 @@ def usd_meshes_become_assets():
     need("Kd 0.500000 0.250000 0.000000" in (FOLDER / "pack" / "lump.mtl").read_text(encoding="ascii"), "colour")
 
 
-def mjcf_meshes_become_assets():
+def write_mjcf():
+    """A beam, off its origin, and a ball."""
     (FOLDER / "beam.obj").write_text("".join("v %g %g %g\n" % (c[0] * 2 + 5, c[1] * 0.2, c[2] * 0.3) for c in CORNERS) +
                                      "".join("f %d %d %d %d\n" % tuple(i + 1 for i in f) for f in FACES), encoding="ascii")
     (FOLDER / "model.xml").write_text("""<mujoco><asset><mesh name="big beam" file="beam.obj" scale="0.5 1 1"/></asset><worldbody>
       <body><freejoint/><geom type="mesh" mesh="big beam" rgba="0.2 0.4 0.6 1"/><geom type="sphere" size="0.1"/></body></worldbody></mujoco>""", encoding="ascii")
+
+
+def mjcf_meshes_become_assets():
+    write_mjcf()
     notes = import_pack(FOLDER / "model.xml", "--material", "timber")
     need("1 geoms that are no meshes" in notes, "notes: %s", notes)
     beam = checked()["big_beam"]

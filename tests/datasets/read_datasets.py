@@ -83,6 +83,22 @@ def disturbed(path, words_before, place):
     return "\n".join(lines) + "\n"
 
 
+def check_scripts(program, folder):
+    """The schema of missions, and every mission of scripts/ with all keys; suites and parts of missions are no missions."""
+    folder.mkdir()
+    (folder / "schema.json").write_bytes(subprocess.run([program, "check", "--schema"], check=True, stdout=subprocess.PIPE).stdout)
+    scripts = HERE.parents[1] / "scripts"
+    for script in sorted(scripts.glob("**/*.lua")):
+        if "rubble.mission" not in script.read_text(encoding="utf-8"):
+            continue
+        done = subprocess.run([program, "check", script.name], cwd=script.parent, check=False, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        if done.returncode:
+            if "does not return a mission" not in done.stderr:
+                raise SystemExit(f"rubble check {script}: {done.stderr}")
+            continue
+        (folder / ("_".join(script.relative_to(scripts).parts) + ".json")).write_text(done.stdout, encoding="utf-8")
+
+
 def score(program, data):
     """What `rubble eval trajectory` says of a TUM and of a KITTI file, for evo to compare."""
     for name, file, columns, place in (("tum", "groundtruth.txt", 8, (1, 2, 3)), ("kitti", "kitti_odometry/poses/00.txt", 12, (3, 7, 11))):
@@ -121,6 +137,7 @@ def main():
         print("skipped: the packages of tests/datasets/requirements.txt cannot be installed here")
         return SKIPPED
     record(program, folder / "data")
+    check_scripts(program, folder / "data" / "missions")
     score(program, folder / "data")
     convert(python, program, folder / "data")
     roll_out(program, folder / "data")

@@ -71,7 +71,7 @@ def run_mujoco(folder, seconds):
 
 
 def run_mujoco_drive(folder, seconds):
-    """The rover of the pile drives forwards: its wheels are motors of velocity."""
+    """The rover of the pile drives forwards: its wheels are motors of velocity. It drives against pieces, and over them."""
     import mujoco
     model = mujoco.MjModel.from_xml_path(str(folder / "mjcf/pile.xml"))
     data = mujoco.MjData(model)
@@ -79,6 +79,10 @@ def run_mujoco_drive(folder, seconds):
     mujoco.mj_forward(model, data)
     begin = tuple(data.xpos[base])
     highest = begin[2]
+    pieces = {mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, link["name"]) for m in read_scene(folder / "mjcf")["models"]
+              if not m["robot"] and len(m["links"]) == 1 for link in m["links"]}
+    own = {b for b in range(model.nbody) if model.body_rootid[b] == base}
+    touched = set()
     for a in range(model.nu):
         name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_ACTUATOR, a)
         if name.startswith("rover/"):
@@ -86,9 +90,14 @@ def run_mujoco_drive(folder, seconds):
     while data.time < seconds:
         mujoco.mj_step(model, data)
         highest = max(highest, data.xpos[base][2])
+        for contact in data.contact[:data.ncon]:
+            one, other = model.geom_bodyid[contact.geom1], model.geom_bodyid[contact.geom2]
+            if one in own or other in own:
+                touched |= pieces & {int(one), int(other)}
     driven = math.dist(begin[:2], data.xpos[base][:2])
     assert driven > 0.5, f"the rover drove {driven} m"
-    return {"engine": "MuJoCo " + mujoco.__version__, "robot": "rover", "driven_m": round(driven, 2), "climbed_m": round(highest - begin[2], 3),
+    assert touched, "the rover met no piece"
+    return {"engine": "MuJoCo " + mujoco.__version__, "robot": "rover", "driven_m": round(driven, 2), "climbed_m": round(highest - begin[2], 3), "met": len(touched),
             "pieces": sum(1 for _ in free_links(read_scene(folder / "mjcf")))}
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Small settled piles in the simulators of others: judge_engines.py PROGRAM WORK [OPTION...]
 
-Settles a mission of each pack and kind into WORK, exports it, and simulates it by every engine that the Python
-interpreters have (engines.py). Prints a table of drifts. What is already in WORK is not made again.
+Settles a mission of each pack and kind into WORK, exports it, reads it by every reader and simulates it by every engine that
+the Python interpreters have (readers.py, engines.py). Prints a table of drifts. What is already in WORK is not made again.
 
   --seconds N        simulated time (default: 5)
   --python PATH      an interpreter with engines (repeatable; default: this one)
@@ -22,6 +22,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 ENGINES = {"mujoco": "mujoco", "mujoco_drive": "mujoco", "drake": "pydrake", "pybullet": "pybullet", "newton": "newton", "rapier": "rapier3d",
            "usd": "pxr"}
+READERS = {"pinocchio": "pinocchio", "trimesh": "trimesh, networkx, PIL", "gltf": "trimesh, networkx, PIL", "bullet_sdf": "pybullet"}
 
 PACK = """return rubble.mission {{ seed = 5, packs = {{ "{pack}" }},
   pile = {{ layers = 2, pieces_per_layer = 20, spawn_position = {{ 0, 0, 3 }}, spawn_bounds = {{ 5, 5, 4 }} }},
@@ -49,6 +50,16 @@ PILES["robots"] = PACK.format(pack="concrete", more="""robots = {
   cameras = { front = { ride = { robot = "rover" }, position = { 0.22, 0, 0.25 }, width = 64, height = 48 } }""").replace(
       "camera = { width = 64, height = 48 }, ", "")
 
+# Bricks and slabs; those that the rover meets are free, all others are fixed.
+PILES["near"] = """return rubble.mission { seed = 6, packs = { "concrete" },
+  pile = { layers = 3, pieces_per_layer = 50, spawn_position = { 0, 0, 2.5 }, spawn_bounds = { 5, 5, 3 },
+    mix = { { asset = "half_brick", weight = 3 }, { asset = "brick", weight = 3 }, { asset = "slab_5" }, { asset = "cinder_block" } } },
+  robots = { rubble.robot.rover { name = "rover", position = { -3.6, 0, 0.001 } } },
+  cameras = { front = { ride = { robot = "rover" }, position = { 0.22, 0, 0.25 }, width = 64, height = 48 } } }
+"""
+DYNAMIC = {"near": "near=-2,0,1.5"}
+DRIVEN = ("robots", "near")
+
 
 def run(*command, limit=3600):
     return subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=limit)
@@ -62,7 +73,7 @@ def make(program, work, name, script):
         if done.returncode:
             raise SystemExit(f"{name} does not settle: {done.stderr}")
     if not (export / "urdf").exists():
-        done = run(program, "export", folder, "--format", "mjcf,sdf,usd,urdf", "--dynamic", "all", "--force", "--quiet")
+        done = run(program, "export", folder, "--format", "mjcf,sdf,usd,urdf,obj,glb", "--dynamic", DYNAMIC.get(name, "all"), "--force", "--quiet")
         if done.returncode:
             raise SystemExit(f"{name} is not exported: {done.stderr}")
         (work / (name + ".notes")).write_text(done.stderr)
@@ -71,9 +82,9 @@ def make(program, work, name, script):
 
 def find_engines(interpreters):
     found = {}
-    for engine, module in ENGINES.items():
+    for engine, module in {**ENGINES, **READERS}.items():
         for python in interpreters:
-            if run(python, "-c", f"import {module}").returncode == 0:
+            if run(python, "-I", "-c", f"import {module}").returncode == 0:
                 found.setdefault(engine, python)
     return found
 
@@ -81,9 +92,9 @@ def find_engines(interpreters):
 def row(pile, engine, result):
     if "errors" in result:
         text = "no error" if not result["errors"] else f"{len(result['errors'])} errors: {result['errors'][0]}"
-        return f"|{pile}|{result['engine']}|{result['pieces']}|{text}|||||"
+        return f"|{pile}|{result['engine']}|{result.get('pieces', '')}|{text}{': ' + result['compared'] if 'compared' in result else ''}|||||"
     if "driven_m" in result:
-        return f"|{pile}|{result['engine']}, {result['robot']}|{result['pieces']}|drives {result['driven_m']} m, climbs {result['climbed_m']} m|||||"
+        return f"|{pile}|{result['engine']}, {result['robot']}|{result['pieces']}|drives {result['driven_m']} m, meets {result['met']} pieces, climbs {result['climbed_m']} m|||||"
     if "failed" in result:
         return f"|{pile}|{engine}||{result['failed']}|||||"
     return (f"|{pile}|{result['engine']}|{result['pieces']}|{result['median_mm']}|{result['p90_mm']}|{result['max_mm']}|"
@@ -96,7 +107,7 @@ def main():
     parser.add_argument("work", type=Path)
     parser.add_argument("--seconds", type=float, default=5)
     parser.add_argument("--python", action="append")
-    parser.add_argument("--engines", default=",".join(ENGINES))
+    parser.add_argument("--engines", default=",".join([*READERS, *ENGINES]))
     parser.add_argument("--piles", default=",".join(PILES))
     parser.add_argument("--report", type=Path)
     parser.add_argument("--limit", type=int, default=600)
@@ -108,10 +119,11 @@ def main():
     for pile in options.piles.split(","):
         export = make(options.program, options.work.resolve(), pile, PILES[pile])
         for engine in options.engines.split(","):
-            if engine not in interpreters or (engine == "mujoco_drive") > (pile == "robots"):
+            if engine not in interpreters or (engine == "mujoco_drive") > (pile in DRIVEN):
                 continue
             try:
-                done = run(interpreters[engine], HERE / "engines.py", engine, export, options.seconds, limit=options.limit)
+                words = [HERE / "readers.py", engine, export] if engine in READERS else [HERE / "engines.py", engine, export, options.seconds]
+                done = run(interpreters[engine], *words, limit=options.limit)
                 result = json.loads(done.stdout.splitlines()[-1]) if done.returncode == 0 else {
                     "failed": (done.stderr.strip().splitlines() or ["no reason given"])[-1][:200]}
             except subprocess.TimeoutExpired:
@@ -123,7 +135,7 @@ def main():
             print(lines[-1], flush=True)
     for engine in options.engines.split(","):
         if engine not in interpreters:
-            print(f"skipped: {engine}: no interpreter has the module {ENGINES[engine]}")
+            print(f"skipped: {engine}: no interpreter has {({**ENGINES, **READERS})[engine]}")
     if options.report:
         options.report.write_text("\n".join(lines) + "\n")
     return 1 if wrong else 0

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The engines of others on small piles, each in an environment of its locked list: nightly.py PROGRAM WORK
 
-Environments are made in WORK from requirements*.txt by pip. Exit code 77, which CTest takes as skipped: no index of packages
+Environments are made in WORK from requirements*.txt, and from that of tests/files, by pip. Exit code 77, which CTest takes as skipped: no index of packages
 is reached. Otherwise that of judge_engines.py, on two piles and for one second.
 """
 import subprocess
@@ -29,11 +29,12 @@ def main():
     program, work = sys.argv[1], Path(sys.argv[2])
     work.mkdir(parents=True, exist_ok=True)
     made = [make_environment(file, work / file.stem) for file in sorted(HERE.glob("requirements*.txt"))]
+    made.append(make_environment(HERE.parent / "files/requirements.txt", work / "readers"))
     pythons = [python for python in made if python]
     if not pythons:
         return 77
     options = [part for python in pythons for part in ("--python", python)]
-    return subprocess.run([sys.executable, HERE / "judge_engines.py", program, work, "--seconds", "1", "--piles", "concrete,hinged_slabs,robots",
+    return subprocess.run([sys.executable, HERE / "judge_engines.py", program, work, "--seconds", "1", "--piles", "concrete,hinged_slabs,robots,near",
                            *options]).returncode
 
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "io/base/atomic_file.h"
 #include "io/base/little_endian.h"
@@ -131,9 +132,11 @@ class GlbBuilder {
         {{"attributes", attributes}, {"material", find_painted(mesh.surface_names[surface], paint)}});
   }
 
+  // Of one name, meshes may have different paints, or none.
   std::size_t find_painted(const std::string& name, const SurfacePaint& paint) {
-    for (std::size_t i = 0; i < material_names_.size(); ++i)
-      if (material_names_[i] == name) return i;
+    const auto key = std::make_pair(name, "paint " + paint.sha256);
+    for (std::size_t i = 0; i < materials_.size(); ++i)
+      if (materials_[i] == key) return i;
     const Vec3f& c = paint.colour;
     Json rough{{"baseColorFactor", {c.x, c.y, c.z, 1}},
                {"metallicFactor", paint.metalness},
@@ -147,8 +150,8 @@ class GlbBuilder {
     Json material{{"name", name}, {"pbrMetallicRoughness", rough}};
     add(material, "normalTexture", images.normal);
     json_["materials"].push_back(material);
-    material_names_.push_back(name);
-    return material_names_.size() - 1;
+    materials_.push_back(key);
+    return materials_.size() - 1;
   }
 
   std::size_t add_image(const std::string& png) {
@@ -266,22 +269,23 @@ class GlbBuilder {
   }
 
   std::size_t find_material(const std::string& name) {
-    for (std::size_t i = 0; i < material_names_.size(); ++i)
-      if (material_names_[i] == name) return i;
+    const auto key = std::make_pair(name, std::string());
+    for (std::size_t i = 0; i < materials_.size(); ++i)
+      if (materials_[i] == key) return i;
     const Vec3f c = model_.colour_of(name);
     json_["materials"].push_back({{"name", name},
                                   {"pbrMetallicRoughness",
                                    {{"baseColorFactor", {c.x, c.y, c.z, 1}},
                                     {"metallicFactor", 0},
                                     {"roughnessFactor", 0.9}}}});
-    material_names_.push_back(name);
-    return material_names_.size() - 1;
+    materials_.push_back(key);
+    return materials_.size() - 1;
   }
 
   const PileModel& model_;
   Json json_;
   std::string bytes_;  // all numbers; every part's size is a multiple of 4
-  std::vector<std::string> material_names_;
+  std::vector<std::pair<std::string, std::string>> materials_;  // name and paint
   std::vector<int> mesh_of_type_;  // -1: no piece has it
 };
 

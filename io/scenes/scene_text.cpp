@@ -121,7 +121,7 @@ std::string Identifiers::add(const std::string& name) {
 std::string hull_obj(const Hull& hull, double scale) {
   std::string text = kObjComment;
   for (const Vec3& p : hull.points) text += "v " + vector_text(p * scale) + "\n";
-  for (const std::array<int, 3>& t : calc_fans(hull))
+  for (const std::array<int, 3>& t : calc_hull_triangles(hull))
     text += "f " + std::to_string(t[0] + 1) + " " + std::to_string(t[1] + 1) + " " + std::to_string(t[2] + 1) + "\n";
   return text;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "kernel/base/inertia.h"
+#include "kernel/geometry/lattice_hull.h"
 
 namespace rubble {
 namespace {
@@ -46,10 +47,13 @@ PrincipalInertia calc_principal_inertia(const Mat3& inertia) {
   return {moments, quat_of(axes)};
 }
 
-std::vector<std::array<int, 3>> calc_fans(const Hull& hull) {
+std::vector<std::array<int, 3>> calc_hull_triangles(const Hull& hull) {
+  const LatticePoints rounded = round_to_lattice(hull.points);
   std::vector<std::array<int, 3>> triangles;
-  for (const std::vector<int>& face : hull.faces)
-    for (std::size_t i = 1; i + 1 < face.size(); ++i) triangles.push_back({face[0], face[i], face[i + 1]});
+  for (const Polygon& face : calc_lattice_hull(rounded.grid)) {
+    const auto corner = [&](std::size_t i) { return rounded.source[std::size_t(face[i])]; };
+    for (std::size_t i = 1; i + 1 < face.size(); ++i) triangles.push_back({corner(0), corner(i), corner(i + 1)});
+  }
   return triangles;
 }
 

@@ -133,7 +133,8 @@ struct SimBox {
 };
 std::optional<SimBox> find_box(const Hull& hull);
 
-// Triangles of a hull: fans of its faces.
-std::vector<std::array<int, 3>> calc_fans(const Hull& hull);
+// Triangles of the hull of its points, a closed and convex surface. Fans of its own faces are not: a face that was merged of
+// several is flat within a tolerance, and two that meet in more than an edge would make a fin.
+std::vector<std::array<int, 3>> calc_hull_triangles(const Hull& hull);
 
 }  // namespace rubble

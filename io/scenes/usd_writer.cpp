@@ -220,7 +220,8 @@ class UsdBuilder {
     if (model.links.size() == 1) return link_text(index, 0, name, "    ", !model.fixed, "") + "\n";
     Identifiers inside;
     std::vector<std::string> paths;
-    std::string text = "    def Xform \"" + name + "\"" + (model.robot ? " (\n        prepend apiSchemas = [\"PhysicsArticulationRootAPI\"]\n    )" : "") + "\n    {\n";
+    // Newton refuses joints that belong to no articulation.
+    std::string text = "    def Xform \"" + name + "\" (\n        prepend apiSchemas = [\"PhysicsArticulationRootAPI\"]\n    )\n    {\n";
     for (std::size_t i = 0; i < model.links.size(); ++i) {
       const std::string link = inside.add(model.links[i].name);
       paths.push_back("/World/" + name + "/" + link);
@@ -293,7 +294,7 @@ class UsdBuilder {
       low = min(low, at), high = max(high, at);
       put(points, tuple(at));
     }
-    for (const std::array<int, 3>& t : calc_fans(hull)) {
+    for (const std::array<int, 3>& t : calc_hull_triangles(hull)) {
       put(counts, "3");
       for (const int v : t) put(indices, std::to_string(v));
     }

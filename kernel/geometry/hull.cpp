@@ -10,7 +10,6 @@
 namespace rubble {
 namespace {
 
-constexpr double kGridSteps = 524288.0;  // of the lattice, 2^19, along the longest extent
 constexpr double kNarrowSteps = 8;  // faces that are narrower than so many are of rounding alone
 // Faces are merged when their normals differ by less than about 1 degree, and only while every
 // corner stays this near to the plane of the largest among them. The angle alone would make one
@@ -97,31 +96,12 @@ std::vector<Polygon> merge_coplanar(const std::vector<Vec3>& points,
 }  // namespace
 
 Hull calc_hull(const std::vector<Vec3>& points) {
-  Aabb box;
-  for (const Vec3& p : points) box.include(p);
-  const Vec3 extent = box.max - box.min;
-  const double longest = std::max(extent.x, std::max(extent.y, extent.z));
-  if (points.size() < 4 || !(longest > 0)) {
-    throw std::invalid_argument("the points do not span a volume");
-  }
-  std::vector<std::pair<GridPoint, int>> placed;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3 g = (points[i] - box.min) * (kGridSteps / longest);
-    placed.push_back({{std::int64_t(g.x + 0.5), std::int64_t(g.y + 0.5), std::int64_t(g.z + 0.5)}, int(i)});
-  }
-  std::sort(placed.begin(), placed.end());
-  std::vector<GridPoint> grid;
-  std::vector<int> source;
-  for (const auto& [point, index] : placed) {
-    if (!grid.empty() && grid.back() == point) continue;  // the first of equal points stays
-    grid.push_back(point), source.push_back(index);
-  }
-
+  const LatticePoints rounded = round_to_lattice(points);
   std::vector<Vec3> candidates;
-  for (int index : source) candidates.push_back(points[index]);
+  for (int index : rounded.source) candidates.push_back(points[index]);
   const std::vector<Polygon> faces =
-      merge_coplanar(candidates, calc_lattice_hull(grid),
-                     std::max(kPlanarShare * longest, kPlanarLeast));
+      merge_coplanar(candidates, calc_lattice_hull(rounded.grid),
+                     std::max(kPlanarShare * rounded.longest, kPlanarLeast));
 
   Hull hull;
   std::vector<int> corner(candidates.size(), -1);
@@ -150,7 +130,7 @@ std::vector<HullPlane> calc_planes(const Hull& hull) {
     for (std::size_t i = 0; i < face.size(); ++i)
       longest = std::max(longest, distance(hull.points[std::size_t(face[i])],
                                            hull.points[std::size_t(face[(i + 1) % face.size()])]));
-    const bool narrow = norm(area) <= 2 * kNarrowSteps / kGridSteps * size * longest;
+    const bool narrow = norm(area) <= 2 * kNarrowSteps / kLatticeSteps * size * longest;
     planes.push_back(narrow ? HullPlane{{}, 1e300} : HullPlane{normal, dot(normal, hull.points[std::size_t(face[0])])});
   }
   return planes;

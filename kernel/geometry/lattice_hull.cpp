@@ -261,6 +261,26 @@ int FaceOfEdge::find(std::uint64_t edge) const {
   return found->second;
 }
 
+LatticePoints round_to_lattice(const std::vector<Vec3>& points) {
+  LatticePoints rounded;
+  Aabb box;
+  for (const Vec3& p : points) box.include(p);
+  const Vec3 extent = box.max - box.min;
+  rounded.longest = std::max(extent.x, std::max(extent.y, extent.z));
+  if (points.size() < 4 || !(rounded.longest > 0)) fail_flat();
+  std::vector<std::pair<GridPoint, int>> placed;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 g = (points[i] - box.min) * (kLatticeSteps / rounded.longest);
+    placed.push_back({{std::int64_t(g.x + 0.5), std::int64_t(g.y + 0.5), std::int64_t(g.z + 0.5)}, int(i)});
+  }
+  std::sort(placed.begin(), placed.end());
+  for (const auto& [point, index] : placed) {
+    if (!rounded.grid.empty() && rounded.grid.back() == point) continue;
+    rounded.grid.push_back(point), rounded.source.push_back(index);
+  }
+  return rounded;
+}
+
 std::vector<Polygon> calc_lattice_hull(const std::vector<GridPoint>& points) {
   if (points.size() < 4) fail_flat();
   QuickHull hull(points);

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/base/math.h"
+
 namespace rubble {
 
 // |x|, |y|, |z| < 2^19, so that every product stays under 2^60.
@@ -18,6 +20,17 @@ struct GridPoint {
 };
 
 using Polygon = std::vector<int>;
+
+constexpr double kLatticeSteps = 524288.0;  // 2^19
+
+// Points in steps of 2^-19 of their longest extent.
+struct LatticePoints {
+  std::vector<GridPoint> grid;  // ascending, no two equal
+  std::vector<int> source;      // of each, the point that it is: the first of equal ones
+  double longest = 0;           // extent of the points along an axis; unit: m
+};
+// Throws std::invalid_argument for fewer than four points, or without an extent.
+LatticePoints round_to_lattice(const std::vector<Vec3>& points);
 
 // Which of some polygons has a directed edge. No two have the same.
 class FaceOfEdge {

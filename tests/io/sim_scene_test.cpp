@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 #if __has_include(<mujoco/mujoco.h>)
@@ -175,6 +177,29 @@ TEST_F(SimScenes, BoxesAreFoundAndNothingElseIs) {
   EXPECT_FALSE(find_box(model_.sim.shapes[1].hulls[0])) << "a tetrahedron";
 }
 
+// A part of a bundled girder, of which two merged faces share three corners: their fans would have a triangle twice.
+TEST_F(SimScenes, ConvexPartsAreClosedAndConvex) {
+  const Hull part = calc_hull({{-1.49918, 0.09673, 0.11858}, {-1.49918, 0.10937, 0.1199},   {-0.90048, 0.08921, 0.17706},
+                               {-0.90048, -0.10798, 0.15645}, {-0.96182, -0.10586, 0.15059}, {-1.49918, -0.08817, 0.14374},
+                               {-0.90048, -0.10812, 0.1632},  {-0.90048, 0.08906, 0.18381},  {-0.97961, 0.09162, 0.18123},
+                               {-1.49918, -0.06952, 0.14569}, {-1.49918, -0.08778, 0.13312}, {-1.49918, 0.10909, 0.13161},
+                               {-1.4336, 0.10691, 0.13787},   {-1.01809, -0.10399, 0.14877}, {-1.33622, -0.09365, 0.14903}});
+  std::map<std::pair<int, int>, int> edges;
+  double six = 0;
+  for (const std::array<int, 3>& t : calc_hull_triangles(part)) {
+    const auto at = [&](int i) { return part.points[std::size_t(t[std::size_t(i)])]; };
+    for (std::size_t i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
+    const Vec3 normal = cross(at(1) - at(0), at(2) - at(0));
+    six += dot(at(0), normal);
+    for (const Vec3& p : part.points) EXPECT_LT(dot(normal, p - at(0)), 1e-5 * norm(normal)) << "a corner over a face";
+  }
+  for (const auto& [edge, count] : edges) {
+    EXPECT_EQ(count, 1);
+    EXPECT_EQ(edges.count({edge.second, edge.first}), 1u);
+  }
+  EXPECT_NEAR(six / 6, calc_volume(part), 1e-3 * calc_volume(part));
+}
+
 TEST_F(SimScenes, HeightsAreThoseOfTheSurface) {
   const SurfaceHeights heights = calc_surface_heights(model_.sim.surfaces, 0.1);
   ASSERT_EQ(heights.columns, 21);
@@ -319,10 +344,12 @@ TEST_F(SimScenes, UsdHasEachBodyWithItsMass) {
   for (auto at = std::sregex_iterator(text.begin(), text.end(), number); at != std::sregex_iterator(); ++at) mass += std::stod((*at)[1]);
   EXPECT_NEAR(mass, free_mass() + model_.sim.models[3].links[0].mass, 1e-6 * mass) << "and the frame of the door, which a joint holds";
   EXPECT_EQ(std::count(text.begin(), text.end(), '{'), std::count(text.begin(), text.end(), '}'));
-  for (const char* part : {"def PhysicsRevoluteJoint \"hold\"", "def PhysicsSphericalJoint \"hold\"", "PhysicsArticulationRootAPI",
-                           "token[] semantics:labels:class = [\"slab\"]", "physics:approximation = \"convexHull\"", "def Camera \"eye\"",
+  for (const char* part : {"def PhysicsRevoluteJoint \"hold\"", "def PhysicsSphericalJoint \"hold\"", "token[] semantics:labels:class = [\"slab\"]", "physics:approximation = \"convexHull\"", "def Camera \"eye\"",
                            "physics:approximation = \"none\""})
     EXPECT_NE(text.find(part), std::string::npos) << part;
+  std::size_t articulations = 0;
+  for (std::size_t at = text.find("RootAPI"); at != std::string::npos; at = text.find("RootAPI", at + 1)) ++articulations;
+  EXPECT_EQ(articulations, 3u) << "the door, the chain and the rover: Newton refuses joints that belong to none";
 }
 
 // A picture of a mesh goes beside the scene, and its places into the mesh.
@@ -341,6 +368,31 @@ TEST_F(SimScenes, PicturesGoBesideTheScene) {
     for (const char* part : {"poster.png"}) EXPECT_NE(all.find(part), std::string::npos) << format.name;
     EXPECT_NE(all.find(format.name == "usd" ? "(0.5, 1)" : "vt 0.5 1\n"), std::string::npos) << format.name;
   }
+}
+
+// A surface of that name without a picture has a material of its own.
+TEST_F(SimScenes, PicturesOfGlbHavePlaces) {
+  SurfacePaint paint;
+  paint.albedo.side = 2;
+  paint.albedo.texels.assign(16, 200);
+  slab_.surface_names = {"rebar"};  // as that of the spikes
+  slab_.paints = {std::make_shared<const SurfacePaint>(paint)};
+  slab_.paint_corners.assign(slab_.triangles.size(), {PaintCorner{0, 0, {1, 1, 1}}, {1, 0, {1, 1, 1}}, {0.5f, 1, {1, 1, 1}}});
+  export_pile(model_, "glb", folder_.path());
+  const std::string bytes = test::read_text(folder_ / "pile.glb");
+  std::uint32_t size = 0;
+  std::memcpy(&size, bytes.data() + 12, 4);
+  const auto document = nlohmann::json::parse(bytes.substr(20, size));
+  int pictured = 0, plain = 0;
+  for (const auto& mesh : document["meshes"])
+    for (const auto& primitive : mesh["primitives"]) {
+      const auto& look = document["materials"][primitive["material"].get<std::size_t>()]["pbrMetallicRoughness"];
+      const bool picture = look.contains("baseColorTexture");
+      EXPECT_EQ(picture, primitive["attributes"].contains("TEXCOORD_0")) << mesh["name"];
+      ++(picture ? pictured : plain);
+    }
+  EXPECT_EQ(pictured, 1);
+  EXPECT_EQ(plain, 1);
 }
 
 TEST_F(SimScenes, EachFormatSaysWhatItCannotHold) {

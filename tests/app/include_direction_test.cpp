@@ -136,7 +136,7 @@ const Allowed kIo = stack(
     {"io/base/", "io/image/", "io/import/", "io/mesh_formats/", "io/mesh/", "io/state/", "io/robot/", "io/scenes/", "io/recording/", "io/ros/", "io/mrpt/",
      "io/datasets/", "io/learning/", "io/playback/", "io/live/"},
     {"kernel/base/", "kernel/model/fines.h", "kernel/model/pile_state.h", "kernel/model/pile.h", "kernel/model/track.h", "kernel/model/robot.h",
-     "kernel/model/assembly.h", "kernel/geometry/hull.h",
+     "kernel/model/assembly.h", "kernel/geometry/hull.h", "kernel/geometry/lattice_hull.h",
      "kernel/settling/settle_checkpoint.h", "render/scene/", "render/streams/image_streams.h"});
 
 // Of voids and ways through them.

@@ -12,6 +12,7 @@ import time
 from pathlib import Path
 
 
+FIRST_FINE = 10_000_000  # the smallest number in `instance` of what is no piece
 CONVEX = 1e-3  # of the volume of a convex part: faces of several corners, which are nearly flat, are cut into triangles
 
 
@@ -77,8 +78,11 @@ def read_trimesh(folder, errors):
     """pile.obj piece by piece and convex parts are closed as they are read, looks with pictures where corners are merged."""
     import trimesh
     whole = trimesh.load_scene(str(folder / "pile.obj"), process=False, skip_materials=True, split_objects=True, group_material=False)
-    names = [link["name"] for model in read_scene(folder / "sdf")["models"] if not model["robot"] for link in model["links"]]
-    pieces = {name: mesh for name, mesh in whole.geometry.items()}
+    # Of the pieces; trees and fronts of a street are open surfaces.
+    links = [link for model in read_scene(folder / "sdf")["models"] if not model["robot"] for link in model["links"]
+             if 0 <= link["instance"] < FIRST_FINE]
+    names, kinds = [link["name"] for link in links], {link["label"] for link in links}
+    pieces = {name: mesh for name, mesh in whole.geometry.items() if name in set(names)}
     missing = set(names) - set(pieces)
     if missing:
         errors.append(f"pile.obj lacks {len(missing)} of {len(names)} pieces, such as {min(missing)}")
@@ -88,6 +92,8 @@ def read_trimesh(folder, errors):
         convex = re.search(r"_part_\d+$", path.stem)
         if not convex and path.parts[-3] == "mjcf":
             continue  # MuJoCo has one look for a mesh: a file for each surface of a piece
+        if not convex and path.parts[-2] == "meshes" and path.stem not in kinds:
+            continue
         mesh = pieces[str(path.relative_to(folder))] = trimesh.load_mesh(str(path), process=False, skip_materials=True)
         looks, parts = looks + (not convex), parts + bool(convex)
         if not convex:

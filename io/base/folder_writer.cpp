@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "io/base/atomic_file.h"
+#include "io/base/remove_files.h"
 #include "kernel/base/error.h"
 #include "kernel/base/system/output_files.h"
 
@@ -60,9 +61,9 @@ void FolderWriter::wait() { tasks_.finish(); }
 void FolderWriter::finish() {
   tasks_.finish();
   // A folder without a file says nothing, and nothing states it as ours when the next run or export replaces this one.
-  std::error_code filled;
-  for (const std::string& folder : folders_)
-    for (fs::path path = folder; !path.empty() && fs::remove(fs::path(part_) / path, filled) && !filled;) path = path.parent_path();
+  std::vector<std::string> inside;
+  for (const std::string& folder : folders_) inside.push_back(folder + "/file");
+  remove_empty_parents(part_, inside);
   commit_folder(part_, path_);
   finished_ = true;
 }

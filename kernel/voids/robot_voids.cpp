@@ -17,7 +17,8 @@ class Finder {
   Finder(const VoidSpace& space, const WidestPaths& widest, double radius, int threads)
       : space_(space), widest_(widest), radius_(float(radius)), pool_(threads) {
     result_.radius = radius;
-    label_.assign(widest.cells.count(), kUnlabelled);
+    slots_ = CellSlots(space.kind.size(), [&](std::size_t i) { return is_place(i); });
+    label_.assign(slots_.count(), kUnlabelled);
   }
 
   RobotVoids run() {
@@ -44,20 +45,21 @@ class Finder {
 
   // Of a place: the number of its void. Of any other cell kUnlabelled.
   std::uint32_t label_at(std::size_t i) const {
-    const std::uint32_t slot = widest_.cells[i];
+    const std::uint32_t slot = slots_[i];
     return slot == kNoSlot ? kUnlabelled : label_[slot];
   }
 
   // Connected places by their faces.
   void label_places() {
     std::vector<std::uint32_t> front;
+    const auto is_new = [&](std::size_t i) { return slots_[i] != kNoSlot && label_[slots_[i]] == kUnlabelled; };
     for (std::size_t i = 0; i < space_.kind.size(); ++i) {
-      if (!is_place(i) || label_at(i) != kUnlabelled) continue;
+      if (!is_new(i)) continue;
       const std::uint32_t label = std::uint32_t(result_.voids.size());
       Void found;
       const auto visit = [&](std::size_t k) {
-        if (!is_place(k) || label_at(k) != kUnlabelled) return;
-        label_[widest_.cells[k]] = label;
+        if (!is_new(k)) return;
+        label_[slots_[k]] = label;
         front.push_back(std::uint32_t(k));
       };
       visit(i);
@@ -231,10 +233,10 @@ class Finder {
   // Dijkstra from all openings at once over the void's places.
   void find_deepest(Void& v, const std::vector<std::uint32_t>& openings, std::uint32_t number) {
     for (std::size_t k = 0; k < v.places.size(); ++k)
-      rank_[widest_.cells[v.places[k]]] = std::uint32_t(k);
+      rank_[slots_[v.places[k]]] = std::uint32_t(k);
     const std::vector<double> length =
         calc_ways_from(space_.grid, openings, v.places.size(), [&](std::size_t k) {
-          const std::uint32_t slot = widest_.cells[k];
+          const std::uint32_t slot = slots_[k];
           return slot != kNoSlot && label_[slot] == number ? rank_[slot] : kNoSlot;
         });
     const auto farthest = std::max_element(length.begin(), length.end());
@@ -246,9 +248,9 @@ class Finder {
   const WidestPaths& widest_;
   const float radius_;
   ThreadPool pool_;
-  // Of the void's cells, as numbered by widest_.cells:
-  std::vector<std::uint32_t> label_;  // of places: the number of their void
-  std::vector<std::uint32_t> rank_;   // of places: where in their void's list they are
+  CellSlots slots_;                   // of all places
+  std::vector<std::uint32_t> label_;  // of each place: the number of its void
+  std::vector<std::uint32_t> rank_;   // of each place: where in its void's list it is
   std::vector<int> envelope_;
   RobotVoids result_;
 };

@@ -15,7 +15,7 @@
 namespace rubble {
 namespace {
 
-constexpr double kBytesPerCell = 5.2;    // kind and clearance, and some layers
+constexpr double kBytesPerCell = 5.6;    // kind and clearance, some layers, lists of void cells
 constexpr double kBytesPerSurface = 40;  // of one cell of a surface, while slabs are joined
 
 std::string format(double value, const char* unit) {

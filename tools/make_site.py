@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Gathers the documents as the sources of a site, with every link checked and led within it:
 README.md becomes its first page, docs/ the others, and files of the tree that a page links to are
-copied. `make site` then runs mkdocs on them.
+copied. What a measured table is of (stale_tables.py) stands above it. `make site` then runs mkdocs on them.
 
 usage: tools/make_site.py FOLDER     # made anew; exit code 1 names each link that leads nowhere
 """
@@ -9,6 +9,8 @@ import os
 import re
 import shutil
 import sys
+
+import stale_tables
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PAGES = {"README.md": "index.md", "assets/README.md": "assets.md", "CHANGELOG.md": "changelog.md"}
@@ -68,6 +70,7 @@ class Site:
         def replace(match):
             to = self.lead(path, match.group(2))
             return f"{match.group(1)}({to})" if to else match.group(1).lstrip("!")[1:-1]
+        text = stale_tables.MARK.sub(lambda mark: f"\n*{stale_tables.caption(mark)}*\n", text)
         parts = CODE.split(text)  # code is every second part
         parts[::2] = [LIST.sub(r"\1\n\n", LINK.sub(replace, part)) for part in parts[::2]]
         page = os.path.join(self.folder, page_of(path))

@@ -64,6 +64,15 @@ def stamp_again(text, commit=None):
         return found[0] + "\n"
 
 
+def caption(found):
+    """What a reader should know of a table. found: a match of MARK."""
+    commit, command, folders, kept = found.groups()
+    text = "Measured at commit %s by `%s`." % (commit, command)
+    if (ROOT / ".git").exists() and digest(blobs_now(folders.split())) != kept:
+        text += " The code that it depends on (%s) has changed since." % ", ".join("`%s`" % f for f in folders.split())
+    return text
+
+
 def find_stale():
     """All marks, and a sentence for each stale one."""
     marks, stale = 0, []

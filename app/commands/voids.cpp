@@ -77,7 +77,7 @@ VoidMap make_map(const FolderRequest& request, const VoidRequest& voids, Progres
     };
   };
   VoidSpace space = calc_void_space(pile, meshes, options, report("clearance", 0, 0.6));
-  space = crop_to_pile(space, kShownAround);
+  space = crop_to_pile(std::move(space), kShownAround);
   return find_voids(std::move(space), voids.space.radii, report("voids", 0.6, 0.4));
 }
 
@@ -106,8 +106,8 @@ std::vector<std::function<void()>> list_jobs(const VoidMap& map, int surfaces,
     const std::size_t shown = std::min(robot.voids.size(), std::size_t(surfaces));
     for (std::size_t i = 0; i < shown; ++i)
       jobs.push_back([&map, &robot, i, folder] {
-        write_void_surface(folder + "/" + surface_name(robot.radius, i + 1), make_void_surface(map.space, robot.voids[i]),
-                           map.space.pile_state);
+        write_void_surface(folder + "/" + surface_name(robot.radius, i + 1),
+                           make_void_surface(map.space, robot.voids[i]), map.space.pile_state);
       });
   }
   jobs.push_back([&map, folder] { write_text_file(folder + "/voids.json", make_void_json(map)); });

@@ -3,6 +3,7 @@ pycolmap 4.x in a virtual environment of its own. What they find is scored by `r
 import functools
 import json
 import pathlib
+import shutil
 import subprocess
 
 import colmap
@@ -40,6 +41,20 @@ class Judges:
     def depends(self, dataset_key, row, judge):
         return {"dataset": dataset_key, "calibrated": row.calibrated, "judge": self.identity(judge)}
 
+    def python(self):
+        return environments.environment(self.work.out / "venv", HERE / "requirements.txt")
+
+    def matched(self, seed, row, dataset):
+        """Features and matches of pycolmap, from which both of its mappers begin."""
+        camera = camera_params(dataset) if row.calibrated else ""
+        return self.work.stage("matched", self.depends(dataset.parent.name, row, "pycolmap"), lambda folder: self.work.run(
+            [self.python(), HERE / "judge_pycolmap.py", "match", dataset / "colmap" / "images", folder, camera], folder / "log.txt"),
+            "seed %d, %s" % (seed, row.name))
+
+    def clear(self, dataset_key, row):
+        """Deletes what only judges need."""
+        shutil.rmtree(self.work.out / "matched" / stages.digest("matched", self.depends(dataset_key, row, "pycolmap")), ignore_errors=True)
+
     def find(self, dataset_key, row, judge):
         """The result, where it is there already; else None."""
         path = self.work.out / "judged" / stages.digest("judged", self.depends(dataset_key, row, judge)) / "result.json"
@@ -53,8 +68,8 @@ class Judges:
             if judge == "colmap":
                 colmap.reconstruct(folder, images, camera, log, self.work.nice)
             else:
-                python = environments.environment(self.work.out / "venv", HERE / "requirements.txt")
-                self.work.run([python, HERE / "judge_pycolmap.py", images, folder, judge.split("_")[1], camera], log)
+                shutil.copy(self.matched(seed, row, dataset) / "database.db", folder)
+                self.work.run([self.python(), HERE / "judge_pycolmap.py", judge.split("_")[1], images, folder, camera], log)
             self.score(folder, dataset, log, deepest)
             (folder / "database.db").unlink()
 

@@ -56,9 +56,10 @@ SIZES = {
     "small": Size("640x480, 5 frames a second, 1,570 pieces", ("bricks=600", "fines.amount=15000"),
                   ("camera.width=640", "camera.height=480", "trajectory.rate_hz=5")),
 }
-# Pictures of a flight of which only the way matters.
-TINY = ("camera.width=32", "camera.height=32", "camera.exposure.mode=ideal", "camera.optics.point_spread=0", "camera.sensor.prnu=0",
-        "camera.sensor.jpeg_quality=0", "camera.shutter.motion_blur=false", "trajectory.rate_hz=20")
+# Pictures of a flight of which only the way matters. They are path-traced, because no light is baked for these.
+TINY = ("camera.width=32", "camera.height=32", "camera.quality=reference", "camera.samples=1", "camera.exposure.mode=ideal",
+        "camera.optics.point_spread=0", "camera.sensor.prnu=0", "camera.sensor.jpeg_quality=0", "camera.shutter.motion_blur=false",
+        "trajectory.rate_hz=20")
 # incremental, global: COLMAP's two mappers.
 JUDGES = ("colmap", "pycolmap_incremental", "pycolmap_global")
 

@@ -31,7 +31,7 @@ KINDS = {
     # Depth is the true one in every pixel, to 13.1 m.
     "camera": Kind(SEEN, 5, plan.Size("640x480, 15 frames a second, 1,570 pieces", PILE, VIDEO, ("tum", "euroc"),
                                       ("tum/rgb", "tum/depth", "euroc"))),
-    # The camera is there for the times of the true poses.
+    # The camera is there for the times of the true poses; no judge reads its pictures.
     "lidar": Kind(("exterior", "street", "dark", "smoke"), 5, plan.Size("Ouster OS0, 64 rings, 10 scans a second", PILE,
                                                               plan.TINY + ("lidar=true",) + MOVING, ("bag",), ("mission.bag",))),
     "stereo": Kind(SEEN, 2, plan.Size("as camera, with a second one 10 cm to its right", PILE, VIDEO + ("camera.stereo_baseline=0.1",),

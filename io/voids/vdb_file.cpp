@@ -35,13 +35,15 @@ typename Grid::Ptr make_grid(const VoidSpace& space, const std::string& name,
   return grid;
 }
 
-openvdb::FloatGrid::Ptr make_float_grid(const VoidSpace& space, const std::vector<float>& values,
+// value_at: of a cell of the void, by its index.
+template <typename ValueAt>
+openvdb::FloatGrid::Ptr make_float_grid(const VoidSpace& space, const ValueAt& value_at,
                                         const std::string& name) {
   auto grid = make_grid<openvdb::FloatGrid>(space, name, 0.0f);
   auto accessor = grid->getAccessor();
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  for (std::size_t i = 0; i < space.kind.size(); ++i) {
     if (space.kind[i] == CellKind::free_void)
-      accessor.setValue(to_coord(space.grid.cell(i)), values[i]);
+      accessor.setValue(to_coord(space.grid.cell(i)), value_at(i));
   }
   grid->setGridClass(openvdb::GRID_FOG_VOLUME);
   return grid;
@@ -87,9 +89,11 @@ void replace_uuid(std::string& bytes) {
 void write_vdb(const std::string& path, const VoidMap& map) {
   static std::once_flag once;
   std::call_once(once, [] { openvdb::initialize(); });
-  openvdb::GridPtrVec grids{make_float_grid(map.space, map.space.clearance, "clearance"),
-                            make_float_grid(map.space, map.widest.radius, "widest_path"),
-                            make_solid_grid(map.space)};
+  const auto widest_at = [&map](std::size_t i) { return map.widest.radius[map.widest.cells[i]]; };
+  openvdb::GridPtrVec grids{
+      make_float_grid(
+          map.space, [&map](std::size_t i) { return map.space.clearance[i]; }, "clearance"),
+      make_float_grid(map.space, widest_at, "widest_path"), make_solid_grid(map.space)};
   for (const RobotVoids& robot : map.robots) grids.push_back(make_label_grid(map.space, robot));
   std::ostringstream stream(std::ios::binary);
   try {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "kernel/base/parallel.h"
@@ -19,5 +20,14 @@ inline constexpr std::uint32_t kNoSeed = 0xffffffffu;
 // there are no seeds at all.
 std::vector<std::uint32_t> find_nearest_seeds(const VoxelGrid& grid, const std::vector<Cell>& seeds,
                                               ThreadPool& pool);
+
+// The same, into four bytes a cell of the caller's, who then needs their room for something else.
+void find_nearest_seeds(const VoxelGrid& grid, const std::vector<Cell>& seeds, ThreadPool& pool,
+                        void* nearest);
+inline std::uint32_t seed_at(const void* nearest, std::size_t cell) {
+  std::uint32_t seed = 0;
+  std::memcpy(&seed, static_cast<const char*>(nearest) + 4 * cell, 4);
+  return seed;
+}
 
 }  // namespace rubble

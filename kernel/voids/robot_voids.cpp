@@ -9,21 +9,23 @@
 namespace rubble {
 namespace {
 
-constexpr std::uint32_t kUnlabelled = kNoPlace;
+constexpr std::uint32_t kUnlabelled = kNoSlot;
+constexpr int kLayers = 32;  // of cells that are given to voids at a time, at least
 
 class Finder {
  public:
   Finder(const VoidSpace& space, const WidestPaths& widest, double radius, int threads)
       : space_(space), widest_(widest), radius_(float(radius)), pool_(threads) {
     result_.radius = radius;
-    label_.assign(space.grid.count(), kUnlabelled);
+    slots_ = CellSlots(space.kind.size(), [&](std::size_t i) { return is_place(i); });
+    label_.assign(slots_.count(), kUnlabelled);
   }
 
   RobotVoids run() {
     label_places();
     assign_cells();
     find_depths();
-    slot_.resize(space_.grid.count());  // in the memory that assign_cells() has given back
+    rank_.resize(label_.size());
     for (std::size_t i = 0; i < result_.voids.size(); ++i) describe(result_.voids[i], i);
     drop_dents();
     for (Void& v : result_.voids) {
@@ -41,16 +43,23 @@ class Finder {
     return space_.kind[i] == CellKind::free_void && space_.clearance[i] >= radius_;
   }
 
+  // Of a place: the number of its void. Of any other cell kUnlabelled.
+  std::uint32_t label_at(std::size_t i) const {
+    const std::uint32_t slot = slots_[i];
+    return slot == kNoSlot ? kUnlabelled : label_[slot];
+  }
+
   // Connected places by their faces.
   void label_places() {
     std::vector<std::uint32_t> front;
-    for (std::size_t i = 0; i < label_.size(); ++i) {
-      if (label_[i] != kUnlabelled || !is_place(i)) continue;
+    const auto is_new = [&](std::size_t i) { return slots_[i] != kNoSlot && label_[slots_[i]] == kUnlabelled; };
+    for (std::size_t i = 0; i < space_.kind.size(); ++i) {
+      if (!is_new(i)) continue;
       const std::uint32_t label = std::uint32_t(result_.voids.size());
       Void found;
       const auto visit = [&](std::size_t k) {
-        if (label_[k] != kUnlabelled || !is_place(k)) return;
-        label_[k] = label;
+        if (!is_new(k)) return;
+        label_[slots_[k]] = label;
         front.push_back(std::uint32_t(k));
       };
       visit(i);
@@ -69,27 +78,46 @@ class Finder {
   // added, since the centre of a cell at a wall is that far from it.
   void assign_cells() {
     const VoxelGrid& grid = space_.grid;
-    std::vector<Cell> seeds;
-    std::vector<std::uint32_t> owner;
-    for (std::size_t v = 0; v < result_.voids.size(); ++v) {
-      for (const std::uint32_t i : result_.voids[v].places) {
-        bool inner = true;
-        for_each_neighbour(grid, i, [&](std::size_t k) { inner = inner && label_[k] == v; });
-        if (inner) continue;
-        seeds.push_back(grid.cell(i));
-        owner.push_back(std::uint32_t(v));
-      }
+    std::vector<Cell> seeds;  // the places at the edges of the voids, layer by layer
+    for (std::size_t i = 0; i < space_.kind.size(); ++i) {
+      const std::uint32_t label = label_at(i);
+      if (label == kUnlabelled) continue;
+      bool inner = true;
+      for_each_neighbour(grid, i, [&](std::size_t k) { inner = inner && label_at(k) == label; });
+      if (!inner) seeds.push_back(grid.cell(i));
     }
-    const auto nearest = find_nearest_seeds(grid, seeds, pool_);
+    // Some layers at a time with those beside them that a robot's radius reaches: for all at once
+    // the nearest places would take four bytes a cell.
     const double reach = radius_ / grid.voxel + 0.5;
-    for (std::size_t i = 0; i < nearest.size(); ++i) {
+    const int beside = int(std::ceil(reach)), step = std::max(kLayers, 2 * beside);
+    for (int first = 0; first < grid.size[2]; first += step)
+      assign_layers(first, std::min(first + step, grid.size[2]), beside, reach, seeds);
+  }
+
+  // first, last: layers [first, last). beside: layers to either side that may have the nearest
+  // place. reach: of a place; both in cells. seeds: ascending.
+  void assign_layers(int first, int last, int beside, double reach,
+                     const std::vector<Cell>& seeds) {
+    const VoxelGrid& grid = space_.grid;
+    const int low = std::max(0, first - beside), high = std::min(grid.size[2], last + beside);
+    const auto below = [](const Cell& seed, int z) { return seed[2] < z; };
+    const auto begin = std::lower_bound(seeds.begin(), seeds.end(), low, below);
+    const auto end = std::lower_bound(begin, seeds.end(), high, below);
+    VoxelGrid part = grid;
+    part.size[2] = high - low;
+    std::vector<Cell> own(begin, end);
+    for (Cell& seed : own) seed[2] -= low;
+    const auto nearest = find_nearest_seeds(part, own, pool_);
+    const std::size_t lowest = grid.index({0, 0, low});
+    for (std::size_t i = grid.index({0, 0, first}); i < grid.index({0, 0, last}); ++i) {
       if (space_.kind[i] != CellKind::free_void) continue;
-      std::uint32_t v = label_[i];
-      if (v == kUnlabelled && nearest[i] != kNoSeed) {
-        const Cell c = grid.cell(i), &s = seeds[nearest[i]];
+      std::uint32_t v = label_at(i);
+      const std::uint32_t seed = nearest[i - lowest];
+      if (v == kUnlabelled && seed != kNoSeed) {
+        const Cell c = part.cell(i - lowest), &s = own[seed];
         double square = 0;
         for (std::size_t k = 0; k < 3; ++k) square += double(s[k] - c[k]) * (s[k] - c[k]);
-        if (square <= reach * reach) v = owner[nearest[i]];
+        if (square <= reach * reach) v = label_at(lowest + part.index(s));
       }
       if (v != kUnlabelled) result_.voids[v].cells.push_back(std::uint32_t(i));
     }
@@ -120,9 +148,10 @@ class Finder {
     v.widest_radius = space_.clearance[widest];
     v.depth = find_depth(lowest);
     v.deepest = space_.grid.centre(lowest);
-    v.bottleneck_radius = widest_.radius[widest];
-    if (widest_.narrowest[widest] != kNoCell)
-      v.bottleneck = space_.grid.centre(widest_.narrowest[widest]);
+    const std::size_t slot = widest_.cells[widest];
+    v.bottleneck_radius = widest_.radius[slot];
+    if (widest_.narrowest[slot] != kNoCell)
+      v.bottleneck = space_.grid.centre(widest_.narrowest[slot]);
     const std::vector<std::uint32_t> openings = find_openings(v);
     group_entrances(v, openings);
     if (!openings.empty()) find_deepest(v, openings, std::uint32_t(number));
@@ -203,10 +232,12 @@ class Finder {
 
   // Dijkstra from all openings at once over the void's places.
   void find_deepest(Void& v, const std::vector<std::uint32_t>& openings, std::uint32_t number) {
-    for (std::size_t k = 0; k < v.places.size(); ++k) slot_[v.places[k]] = std::uint32_t(k);
+    for (std::size_t k = 0; k < v.places.size(); ++k)
+      rank_[slots_[v.places[k]]] = std::uint32_t(k);
     const std::vector<double> length =
         calc_ways_from(space_.grid, openings, v.places.size(), [&](std::size_t k) {
-          return label_[k] == number ? slot_[k] : kUnlabelled;
+          const std::uint32_t slot = slots_[k];
+          return slot != kNoSlot && label_[slot] == number ? rank_[slot] : kNoSlot;
         });
     const auto farthest = std::max_element(length.begin(), length.end());
     v.path_length = *farthest * space_.grid.voxel;
@@ -217,8 +248,9 @@ class Finder {
   const WidestPaths& widest_;
   const float radius_;
   ThreadPool pool_;
-  std::vector<std::uint32_t> label_;  // of places: the number of their void
-  std::vector<std::uint32_t> slot_;   // of places: where in their void's list they are
+  CellSlots slots_;                   // of all places
+  std::vector<std::uint32_t> label_;  // of each place: the number of its void
+  std::vector<std::uint32_t> rank_;   // of each place: where in its void's list it is
   std::vector<int> envelope_;
   RobotVoids result_;
 };
@@ -226,11 +258,12 @@ class Finder {
 }  // namespace
 
 std::vector<double> calc_ways_in(const VoidSpace& space, const Void& v) {
-  std::vector<std::uint32_t> openings, slot(space.grid.count(), kNoPlace);
-  for (const Entrance& e : v.entrances) openings.insert(openings.end(), e.openings.begin(), e.openings.end());
-  for (std::size_t k = 0; k < v.places.size(); ++k) slot[v.places[k]] = std::uint32_t(k);
-  std::vector<double> ways =
-      calc_ways_from(space.grid, openings, v.places.size(), [&slot](std::size_t k) { return slot[k]; });
+  std::vector<std::uint32_t> openings;
+  for (const Entrance& e : v.entrances)
+    openings.insert(openings.end(), e.openings.begin(), e.openings.end());
+  const CellSlots slot(space.grid.count(), v.places);
+  std::vector<double> ways = calc_ways_from(space.grid, openings, v.places.size(),
+                                            [&slot](std::size_t k) { return slot[k]; });
   for (double& way : ways) way *= space.grid.voxel;
   return ways;
 }

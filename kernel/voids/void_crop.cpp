@@ -29,31 +29,30 @@ CellBox find_box(const VoidSpace& space) {
 
 }  // namespace
 
-VoidSpace crop_to_pile(const VoidSpace& space, double margin) {
+VoidSpace crop_to_pile(VoidSpace space, double margin) {
   CellBox box = find_box(space);
   if (box.last[0] < 0) return space;
   const int more = std::max(1, int(std::ceil(margin / space.grid.voxel)));
-  VoidSpace result;
-  result.grid.voxel = space.grid.voxel;
-  result.rolling_radius = space.rolling_radius;
-  result.pile_state = space.pile_state;
+  VoxelGrid grid = space.grid;
   for (std::size_t k = 0; k < 3; ++k) {
     box.first[k] = std::max(0, box.first[k] - more);
     box.last[k] = std::min(space.grid.size[k] - 1, box.last[k] + more);
-    result.grid.size[k] = box.last[k] - box.first[k] + 1;
-    result.grid.corner[int(k)] = space.grid.corner[int(k)] + box.first[k] * space.grid.voxel;
+    grid.size[k] = box.last[k] - box.first[k] + 1;
+    grid.corner[int(k)] = space.grid.corner[int(k)] + box.first[k] * space.grid.voxel;
   }
-  result.kind.reserve(result.grid.count());
-  result.clearance.reserve(result.grid.count());
+  // Rows move towards the beginning of the same lists: a second copy would need as much memory
+  // again.
+  std::ptrdiff_t to = 0;
   for (int z = box.first[2]; z <= box.last[2]; ++z)
-    for (int y = box.first[1]; y <= box.last[1]; ++y) {
+    for (int y = box.first[1]; y <= box.last[1]; ++y, to += grid.size[0]) {
       const auto from = std::ptrdiff_t(space.grid.index({box.first[0], y, z}));
-      const auto to = from + result.grid.size[0];
-      result.kind.insert(result.kind.end(), space.kind.begin() + from, space.kind.begin() + to);
-      result.clearance.insert(result.clearance.end(), space.clearance.begin() + from,
-                              space.clearance.begin() + to);
+      std::copy_n(space.kind.begin() + from, grid.size[0], space.kind.begin() + to);
+      std::copy_n(space.clearance.begin() + from, grid.size[0], space.clearance.begin() + to);
     }
-  return result;
+  space.grid = grid;
+  space.kind.resize(grid.count());
+  space.clearance.resize(grid.count());
+  return space;
 }
 
 }  // namespace rubble

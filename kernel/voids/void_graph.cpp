@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "kernel/voids/cell_slots.h"
 #include "kernel/voids/void_map.h"
 
 namespace rubble {
@@ -28,7 +29,8 @@ class Watershed {
       return space.clearance[a] != space.clearance[b] ? space.clearance[a] > space.clearance[b]
                                                       : a < b;
     });
-    basin_of_.assign(space.kind.size(), kUnvisited);
+    slots_ = CellSlots(space.kind.size(), order_);
+    basin_of_.assign(order_.size(), kUnvisited);
   }
 
   VoidGraph run() {
@@ -58,8 +60,9 @@ class Watershed {
     bool at_outside = false;
     for_each_neighbour(space_.grid, i, [&](std::size_t k) {
       if (space_.kind[k] == CellKind::outside) at_outside = true;
-      if (basin_of_[k] == kUnvisited) return;
-      around.insert(find(basin_of_[k]));
+      const std::uint32_t slot = slots_[k];
+      if (slot == kNoSlot || basin_of_[slot] == kUnvisited) return;
+      around.insert(find(basin_of_[slot]));
     });
     if (around.empty()) {
       basins_.push_back({i, std::uint32_t(basins_.size())});
@@ -67,7 +70,7 @@ class Watershed {
     }
     // The widest peak is the oldest basin, the one with the lowest number.
     const std::uint32_t widest = *around.begin();
-    basin_of_[i] = widest;
+    basin_of_[slots_[i]] = widest;
     for (const std::uint32_t basin : around)
       if (basin != widest) meet(widest, basin, i);
     if (at_outside) meetings_.push_back({widest, kOutside, i});
@@ -92,7 +95,8 @@ class Watershed {
           {space_.grid.centre(basins_[b].peak), space_.clearance[basins_[b].peak], 0});
     }
     for (const std::uint32_t i : order_)
-      graph.chambers[std::size_t(number[find(basin_of_[i])])].volume += space_.cell_volume();
+      graph.chambers[std::size_t(number[find(basin_of_[slots_[i]])])].volume +=
+          space_.cell_volume();
     // Meetings come widest first, so the first of a pair is its throat.
     std::map<std::pair<int, int>, bool> known;
     for (const Meeting& m : meetings_) {
@@ -107,7 +111,9 @@ class Watershed {
 
   const VoidSpace& space_;
   const double persistence_;
-  std::vector<std::uint32_t> order_, basin_of_;
+  std::vector<std::uint32_t> order_;
+  CellSlots slots_;                      // of the cells in order_
+  std::vector<std::uint32_t> basin_of_;  // of each of them
   std::vector<Basin> basins_;
   std::vector<Meeting> meetings_;
 };

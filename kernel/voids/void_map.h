@@ -65,7 +65,7 @@ struct VoidGraph {
 
 struct VoidMap {
   VoidSpace space;                           // the cells of all indices below
-  WidestPaths widest;                        // from the outside to every cell
+  WidestPaths widest;                        // from the outside to every cell of the void
   double void_volume = 0, solid_volume = 0;  // unit: m3
   double covered_volume = 0;                 // VoidSpace::covered_volume; unit: m3
   std::vector<RobotVoids> robots;            // in the order of the requested radii
@@ -80,7 +80,7 @@ VoidMap find_voids(VoidSpace space, const std::vector<double>& radii,
 // unit: m. Infinite in a sealed void.
 std::vector<double> calc_ways_in(const VoidSpace& space, const Void& v);
 
-// The parts of find_voids(). A cell belongs to the void when its clearance is >= radius.
+// The parts of find_voids(). A cell belongs to the void when its clearance is >= radius. widest: of the same space.
 RobotVoids find_robot_voids(const VoidSpace& space, const WidestPaths& widest, double radius,
                             int threads);
 // smallest: smallest clearance of a cell. A chamber must be wider by `persistence` than the throat to the next wider

@@ -217,11 +217,11 @@ FoundPath find_path(const VoidSpace& space, const Vec3& start, const Vec3& goal,
 
 std::vector<float> calc_ways_through(const VoidSpace& space, const Vec3& from, double radius) {
   const auto slot_of = [&](std::size_t i) {
-    return space.clearance[i] >= float(radius) ? std::uint32_t(i) : kNoPlace;
+    return space.clearance[i] >= float(radius) ? std::uint32_t(i) : kNoSlot;
   };
   const auto start = std::uint32_t(find_inside(space, from));
   std::vector<std::uint32_t> starts;
-  if (slot_of(start) != kNoPlace) starts.push_back(start);
+  if (slot_of(start) != kNoSlot) starts.push_back(start);
   const std::vector<double> cells = calc_ways_from(space.grid, starts, space.grid.count(), slot_of);
   std::vector<float> ways(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) ways[i] = float(cells[i] * space.grid.voxel);

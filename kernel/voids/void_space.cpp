@@ -2,18 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <string>
 #include <utility>
 
 #include "kernel/base/error.h"
 #include "kernel/geometry/distance_transform.h"
 #include "kernel/model/range_check.h"
+#include "kernel/voids/rolling_ball.h"
 #include "kernel/voids/solid_voxels.h"
 
 namespace rubble {
 namespace {
 
-constexpr double kBytesPerCell = 10.5;   // kind, clearance, a transform, marks of the rolling ball
+constexpr double kBytesPerCell = 5.6;    // kind and clearance, some layers, lists of void cells
 constexpr double kBytesPerSurface = 40;  // of one cell of a surface, while slabs are joined
 
 std::string format(double value, const char* unit) {
@@ -98,6 +100,30 @@ void check_memory(const Solids& solids, const VoidSpaceOptions& options) {
   throw InputError(d);
 }
 
+// Of some triangles of a surface the distance to the nearest.
+class NearestTriangle {
+ public:
+  NearestTriangle(const Solids& solids, const VoxelSurface& surface, const Vec3& from)
+      : solids_(solids), surface_(surface), from_(from) {}
+
+  void consider(std::uint32_t seed) {  // number of a surface cell
+    if (seed == kNoSeed) return;
+    const std::uint32_t triangle = surface_.triangles[seed];
+    if (triangle == last_) return;
+    last_ = triangle;
+    const Vec3 d = find_closest(solids_.triangles[triangle], from_) - from_;
+    square_ = std::min(square_, dot(d, d));
+  }
+  float distance() const { return float(std::sqrt(square_)); }
+
+ private:
+  const Solids& solids_;
+  const VoxelSurface& surface_;
+  const Vec3 from_;
+  std::uint32_t last_ = kNoSeed;
+  double square_ = 1e12;
+};
+
 // Everything that is worked out on the way to a VoidSpace, from the top down.
 class Builder {
  public:
@@ -113,11 +139,10 @@ class Builder {
     surface_ = find_surface(space_.grid, solids_, pool_);
     report(0.45);
     measure_clearance();
-    // What comes now needs as much again.
     surface_ = {};
     solids_ = {};
     report(0.7);
-    sweep_outside();
+    sweep_outside(space_, options_.ground, pool_);
     report(0.95);
     if (options_.ground) clip_to_ground();
     report(1);
@@ -148,124 +173,35 @@ class Builder {
 
   // From the pieces alone; the ground is added when the ball has rolled. Near is what is nearest
   // to the cell itself or, since that was the nearest of surface *cells*, to one beside it.
+  // The nearest surface cells are found in the memory of the clearance, which replaces them layer
+  // by layer.
   void measure_clearance() {
     const VoxelGrid& grid = space_.grid;
-    const auto nearest = find_nearest_seeds(grid, surface_.cells, pool_);
-    space_.clearance.assign(grid.count(), 0);
-    for_each_cell([&](std::size_t i) {
-      if (space_.kind[i] == CellKind::solid) return;
-      const Vec3 centre = grid.centre(i);
-      double best = 1e12;
-      std::uint32_t last = kNoSeed;
-      const auto consider = [&](std::size_t k) {
-        if (nearest[k] == kNoSeed) return;
-        const std::uint32_t triangle = surface_.triangles[nearest[k]];
-        if (triangle == last) return;
-        last = triangle;
-        const Vec3 d = find_closest(solids_.triangles[triangle], centre) - centre;
-        best = std::min(best, dot(d, d));
-      };
-      consider(i);
-      for_each_neighbour(grid, i, consider);
-      space_.clearance[i] = float(std::sqrt(best));
-    });
-  }
-
-  // Where the rolling ball's centre may be, reached from the border of the grid; runs of cells along X
-  // at a time, since most of the grid is such runs.
-  std::vector<std::uint8_t> roll() const {
-    const Cell& n = space_.grid.size;
-    std::vector<std::uint8_t> reached(space_.grid.count(), 0);
-    std::vector<Cell> front;
-    const auto drain = [&] {
-      while (!front.empty()) {
-        const Cell c = front.back();
-        front.pop_back();
-        fill_run(c, reached, front);
-      }
-    };
-    for (int z = 0; z < n[2]; ++z)
-      for (int y = 0; y < n[1]; ++y) {
-        const bool whole = y == 0 || y + 1 == n[1] || z + 1 == n[2] || (z == 0 && !options_.ground);
-        for (int x = 0; x < n[0]; x += whole ? 1 : std::max(1, n[0] - 1)) {
-          front.push_back({x, y, z});
-          drain();
-        }
-      }
-    return reached;
-  }
-
-  bool is_open(std::size_t i, const std::vector<std::uint8_t>& reached) const {
-    return !reached[i] && space_.kind[i] != CellKind::solid &&
-           space_.clearance[i] >= float(options_.rolling_radius);
-  }
-
-  // Marks the run of open cells along X that a cell is in; the runs beside it go to the front.
-  void fill_run(const Cell& c, std::vector<std::uint8_t>& reached, std::vector<Cell>& front) const {
-    const VoxelGrid& grid = space_.grid;
-    const std::size_t row = grid.index({0, c[1], c[2]});
-    if (!is_open(row + std::size_t(c[0]), reached)) return;
-    int first = c[0], last = c[0];
-    while (first > 0 && is_open(row + std::size_t(first) - 1, reached)) --first;
-    while (last + 1 < grid.size[0] && is_open(row + std::size_t(last) + 1, reached)) ++last;
-    for (int x = first; x <= last; ++x) reached[row + std::size_t(x)] = 1;
-    for (const auto& [dy, dz] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-      const Cell start{first, c[1] + dy, c[2] + dz};
-      if (!grid.contains(start)) continue;
-      const std::size_t beside = grid.index(start) - std::size_t(first);
-      bool inside = false;
-      for (int x = first; x <= last; ++x) {
-        const bool open = is_open(beside + std::size_t(x), reached);
-        if (open && !inside) front.push_back({x, start[1], start[2]});
-        inside = open;
-      }
-    }
-  }
-
-  // The cells of a region that have a neighbour which is not of it, in the order of their numbers.
-  std::vector<Cell> find_edge(const std::vector<std::uint8_t>& region) {
-    const Cell& n = space_.grid.size;
-    const std::size_t row = std::size_t(n[0]), layer = row * std::size_t(n[1]);
-    std::vector<std::vector<Cell>> edges;
-    edges.resize(std::size_t(n[2]));
-    pool_.run(n[2], 1, [&](int begin, int end) {
-      for (int z = begin; z < end; ++z) {
-        std::size_t i = std::size_t(z) * layer;
-        for (int y = 0; y < n[1]; ++y)
-          for (int x = 0; x < n[0]; ++x, ++i) {
-            if (!region[i]) continue;
-            const bool inner = (x == 0 || region[i - 1]) && (x + 1 == n[0] || region[i + 1]) &&
-                               (y == 0 || region[i - row]) && (y + 1 == n[1] || region[i + row]) &&
-                               (z == 0 || region[i - layer]) && (z + 1 == n[2] || region[i + layer]);
-            if (!inner) edges[std::size_t(z)].push_back({x, y, z});
+    space_.clearance.resize(grid.count());
+    float* const values = space_.clearance.data();
+    find_nearest_seeds(grid, surface_.cells, pool_, values);
+    const std::size_t row = std::size_t(grid.size[0]), layer = row * std::size_t(grid.size[1]);
+    std::vector<std::uint32_t> below(layer), here(layer);
+    for (int z = 0; z < grid.size[2]; ++z) {
+      const std::size_t first = std::size_t(z) * layer;
+      std::memcpy(here.data(), values + first, 4 * layer);
+      pool_.run(grid.size[1], 8, [&](int begin, int end) {
+        for (int y = begin; y < end; ++y)
+          for (int x = 0; x < grid.size[0]; ++x) {
+            const std::size_t c = std::size_t(x) + row * std::size_t(y);
+            NearestTriangle found(solids_, surface_, grid.centre(Cell{x, y, z}));
+            found.consider(here[c]);
+            if (x > 0) found.consider(here[c - 1]);
+            if (x + 1 < grid.size[0]) found.consider(here[c + 1]);
+            if (y > 0) found.consider(here[c - row]);
+            if (y + 1 < grid.size[1]) found.consider(here[c + row]);
+            if (z > 0) found.consider(below[c]);
+            if (z + 1 < grid.size[2]) found.consider(seed_at(values, first + layer + c));
+            values[first + c] = space_.kind[first + c] == CellKind::solid ? 0 : found.distance();
           }
-      }
-    });
-    std::vector<Cell> all;
-    for (const std::vector<Cell>& edge : edges) all.insert(all.end(), edge.begin(), edge.end());
-    return all;
-  }
-
-  // Cells that the ball covers in one of its places. One voxel is added to its radius, because the
-  // centres of cells stand off the surface that it touches by up to that.
-  void sweep_outside() {
-    const VoxelGrid& grid = space_.grid;
-    const std::vector<std::uint8_t> reached = roll();
-    const std::vector<Cell> edge = find_edge(reached);
-    const auto nearest = find_nearest_seeds(grid, edge, pool_);
-    const double reach = options_.rolling_radius / grid.voxel + 1;
-    for_each_cell([&](std::size_t i) {
-      if (space_.kind[i] == CellKind::solid) return;
-      bool outside = reached[i] != 0;
-      if (!outside && nearest[i] != kNoSeed) {
-        const Cell cell = grid.cell(i), &seed = edge[nearest[i]];
-        double square = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-          square += double(seed[k] - cell[k]) * (seed[k] - cell[k]);
-        outside = square < reach * reach;
-      }
-      if (outside) space_.kind[i] = CellKind::outside;
-    });
+      });
+      std::swap(below, here);
+    }
   }
 
   void clip_to_ground() {
@@ -288,8 +224,8 @@ class Builder {
 void VoidSpaceOptions::validate() const {
   RangeCheck check("");
   check.expect(voxel >= 0.001 && voxel <= 1, "voxel", "0.001 to 1 m", voxel);
-  check.expect(rolling_radius >= 2 * voxel && rolling_radius <= 10, "rolling_radius", "2 voxels to 10 m",
-               rolling_radius);
+  check.expect(rolling_radius >= 2 * voxel && rolling_radius <= 10, "rolling_radius",
+               "2 voxels to 10 m", rolling_radius);
   check.expect(memory_limit > 0, "memory_limit", "more than 0 bytes", memory_limit);
   check.expect(threads >= 0 && threads <= 1024, "threads", "0 to 1024", threads);
   check.finish();

@@ -65,6 +65,6 @@ VoidSpace calc_void_space(const PileState& pile, const std::vector<const Triangl
 
 // Reduces the space to all solid and void cells with a margin (unit: m; at least a voxel). The rolling ball needs more
 // room; voids do not: find_voids() gives the same result with less memory. Paths through the outside have less room.
-VoidSpace crop_to_pile(const VoidSpace& space, double margin);
+VoidSpace crop_to_pile(VoidSpace space, double margin);
 
 }  // namespace rubble

@@ -11,10 +11,9 @@
 #include <vector>
 
 #include "kernel/geometry/voxel_grid.h"
+#include "kernel/voids/cell_slots.h"
 
 namespace rubble {
-
-inline constexpr std::uint32_t kNoPlace = 0xffffffffu;
 
 // Calls visit(index, length of the step in cells) for the up to 26 cells around one.
 template <typename Visit>
@@ -30,8 +29,8 @@ void for_each_around(const VoxelGrid& grid, std::size_t index, Visit&& visit) {
       }
 }
 
-// Dijkstra from all cells of `starts` at once over `count` places. slot_of(cell): the number of the place
-// there, or kNoPlace. Of each place; unit: cells; infinite where there is no way.
+// Dijkstra from all cells of `starts` at once over `count` places. slot_of(cell): the number of the
+// place there, or kNoSlot. Of each place; unit: cells; infinite where there is no way.
 template <typename SlotOf>
 std::vector<double> calc_ways_from(const VoxelGrid& grid, const std::vector<std::uint32_t>& starts,
                                    std::size_t count, const SlotOf& slot_of) {
@@ -48,7 +47,7 @@ std::vector<double> calc_ways_from(const VoxelGrid& grid, const std::vector<std:
     if (done > length[slot_of(i)]) continue;
     for_each_around(grid, i, [&, far = done](std::size_t k, double step) {
       const std::uint32_t slot = slot_of(k);
-      if (slot == kNoPlace || far + step >= length[slot]) return;
+      if (slot == kNoSlot || far + step >= length[slot]) return;
       length[slot] = far + step;
       front.push({length[slot], std::uint32_t(k)});
     });

@@ -11,8 +11,10 @@ constexpr double kLevelsPerVoxel = 16;
 class Flood {
  public:
   explicit Flood(const VoidSpace& space) : space_(space) {
-    paths_.radius.assign(space.grid.count(), 0);
-    paths_.narrowest.assign(space.grid.count(), kNoCell);
+    paths_.cells = CellSlots(space.kind.size(),
+                             [&](std::size_t i) { return space.kind[i] == CellKind::free_void; });
+    paths_.radius.assign(paths_.cells.count(), 0);
+    paths_.narrowest.assign(paths_.cells.count(), kNoCell);
   }
 
   WidestPaths run() {
@@ -21,7 +23,8 @@ class Flood {
       // Cells may be added to this level, never to a higher one, while it is worked through.
       for (std::size_t k = 0; k < levels_[level].size(); ++k) {
         const std::size_t i = levels_[level][k];
-        if (find_level(paths_.radius[i]) == level) spread(i);  // else a wider way was found since
+        if (find_level(paths_.radius[paths_.cells[i]]) == level)
+          spread(i);  // else a wider way was found since
       }
       levels_[level] = {};
     }
@@ -45,17 +48,18 @@ class Flood {
   }
 
   void reach(std::size_t i, float radius, std::uint32_t narrowest) {
-    if (paths_.narrowest[i] != kNoCell && paths_.radius[i] >= radius) return;
-    paths_.radius[i] = radius;
-    paths_.narrowest[i] = narrowest;
+    const std::size_t slot = paths_.cells[i];
+    if (paths_.narrowest[slot] != kNoCell && paths_.radius[slot] >= radius) return;
+    paths_.radius[slot] = radius;
+    paths_.narrowest[slot] = narrowest;
     const std::size_t level = find_level(radius);
     if (levels_.size() <= level) levels_.resize(level + 1);
     levels_[level].push_back(std::uint32_t(i));
   }
 
   void spread(std::size_t i) {
-    const float radius = paths_.radius[i];
-    const std::uint32_t narrowest = paths_.narrowest[i];
+    const float radius = paths_.radius[paths_.cells[i]];
+    const std::uint32_t narrowest = paths_.narrowest[paths_.cells[i]];
     for_each_neighbour(space_.grid, i, [&](std::size_t k) {
       if (space_.kind[k] != CellKind::free_void) return;
       const float here = space_.clearance[k];

@@ -38,6 +38,8 @@ TEST(Site, EveryLinkLeadsSomewhere) {
   EXPECT_NE(read_file(scratch / "site/index.md").find("](pictures/" + picture + ")"), std::string::npos);
   // mkdocs takes a list right below a sentence for its next words.
   EXPECT_NE(read_file(scratch / "site/reference/formats.md").find("all formats:\n\n- **Stamps.**"), std::string::npos);
+  // Readers see what a table was measured from.
+  EXPECT_NE(read_file(scratch / "site/explanation/sfm.md").find("*Measured at commit "), std::string::npos);
   const std::string nav = read_file(kRoot + "/mkdocs.yml");
   for (const auto& page : fs::recursive_directory_iterator(scratch / "site")) {
     if (page.path().extension() != ".md") continue;
@@ -51,7 +53,7 @@ TEST(Site, EveryLinkLeadsSomewhere) {
 TEST(Site, NamesLinksThatLeadNowhere) {
   const ScratchFolder scratch;
   for (const char* folder : {"tools", "assets", "docs/reference"}) fs::create_directories(scratch / folder);
-  for (const char* file : {"tools/make_site.py", "tools/site.css"}) fs::copy_file(kRoot + "/" + file, scratch / file);
+  for (const char* file : {"tools/make_site.py", "tools/stale_tables.py", "tools/site.css"}) fs::copy_file(kRoot + "/" + file, scratch / file);
   write_file(scratch / "README.md", "# A\n[one](docs/reference/lua.md#keys) [two](docs/none.md)\n\n    [code](nowhere.md)\n");
   write_file(scratch / "CHANGELOG.md", "# C\n");
   write_file(scratch / "assets/README.md", "# B\n[back](../README.md#a) [out](https://example.org)\n");

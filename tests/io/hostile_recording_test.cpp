@@ -2,11 +2,10 @@
 // alone.
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "io/base/atomic_file.h"
 #include "io/base/little_endian.h"
 #include "io/playback/recording_check.h"
+#include "tests/base/peak_memory.h"
 #include "tests/io/support.h"
 
 namespace rubble {
@@ -15,26 +14,15 @@ namespace hostile_recording_test {
 constexpr std::uint32_t kStated = 3'000'000'000;  // unit: byte
 constexpr long kAllowed = 256 << 10;              // unit: KiB
 
-// From now on.
-void forget_most_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }
-
-// unit: KiB
-long most_memory() {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.rfind("VmHWM:", 0) == 0) return std::stol(line.substr(6));
-  return -1;
-}
-
 void expect_refused_in_little_memory(const std::string& name, const std::string& bytes) {
   const test::ScratchFolder folder;
   const std::string path = folder / name;
   write_text_file(path, bytes);
-  forget_most_memory();
-  const long before = most_memory();
+  testing::forget_peak_memory();
+  const long before = testing::peak_memory();
   ASSERT_GT(before, 0);
   const auto check = check_recording(path);
-  EXPECT_LT(most_memory() - before, kAllowed);
+  EXPECT_LT(testing::peak_memory() - before, kAllowed);
   ASSERT_TRUE(check);
   ASSERT_TRUE(check->fault);
   EXPECT_NE(check->fault->what.find("is damaged"), std::string::npos) << check->fault->what;

@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernel/base/error.h"
 #include "kernel/base/random.h"
 #include "kernel/queries/queries.h"
+#include "kernel/voids/void_map.h"
+#include "tests/base/peak_memory.h"
 #include "void_scenes.h"
 
 namespace rubble {
@@ -144,6 +147,78 @@ TEST(VoidSpace, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one.kind, three.kind);
   EXPECT_EQ(one.clearance, three.clearance);
 }
+
+// Where the centre of the rolling ball comes to from the border of the grid, by single steps.
+std::vector<Cell> find_places_of_ball(const VoidSpace& space) {
+  const auto is_open = [&](std::size_t i) {
+    return space.kind[i] != CellKind::solid && space.clearance[i] >= float(space.rolling_radius);
+  };
+  std::vector<char> reached(space.grid.count(), 0);
+  std::vector<std::size_t> front;
+  const auto reach = [&](std::size_t i) {
+    if (reached[i] || !is_open(i)) return;
+    reached[i] = 1;
+    front.push_back(i);
+  };
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    int neighbours = 0;
+    for_each_neighbour(space.grid, i, [&](std::size_t) { ++neighbours; });
+    if (neighbours < 6) reach(i);
+  }
+  std::vector<Cell> places;
+  while (!front.empty()) {
+    const std::size_t i = front.back();
+    front.pop_back();
+    places.push_back(space.grid.cell(i));
+    for_each_neighbour(space.grid, i, reach);
+  }
+  return places;
+}
+
+TEST(VoidSpace, OutsideIsWhatTheBallCoversInOneOfItsPlaces) {
+  RandomStream random(5, "void space");
+  VoidScene scene;
+  for (int i = 0; i < 14; ++i) {
+    const Vec3 position{random.uniform(-0.8, 0.8), random.uniform(-0.8, 0.8), random.uniform(-0.8, 0.8)};
+    scene.add(testing::make_box({-0.5, -0.4, -0.05}, {0.5, 0.4, 0.05}), turned(random, position));
+  }
+  VoidSpaceOptions options = options_with(0.08, 0.3);
+  options.ground = false;
+  const VoidSpace space = calc_void_space(scene.pile, scene.pointers(), options);
+  const std::vector<Cell> places = find_places_of_ball(space);
+  const double reach = options.rolling_radius / options.voxel + 1;
+  std::size_t outside = 0, inside = 0;
+  for (std::size_t i = 0; i < space.grid.count(); i += 3) {
+    if (space.kind[i] == CellKind::solid) continue;
+    const Cell c = space.grid.cell(i);
+    const bool covered = std::any_of(places.begin(), places.end(), [&](const Cell& p) {
+      double square = 0;
+      for (std::size_t k = 0; k < 3; ++k) square += double(p[k] - c[k]) * (p[k] - c[k]);
+      return square < reach * reach;
+    });
+    ASSERT_EQ(space.kind[i] == CellKind::outside, covered) << "cell " << i;
+    ++(covered ? outside : inside);
+  }
+  EXPECT_GT(outside, 1000u);
+  EXPECT_GT(inside, 100u);
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they take memory of their own
+// A kind and a clearance a cell, and little besides, from the beginning to the end.
+TEST(VoidSpace, AVoidMapTakesAFewBytesACell) {
+  VoidScene scene;
+  testing::add_room(scene, {0, 0, 0}, {0.8, 0.8, 0.8}, 0.1);
+  scene.add(testing::make_box({4, 4, 0}, {4.3, 4.3, 2}));
+  testing::forget_peak_memory();
+  const long before = testing::peak_memory();
+  ASSERT_GT(before, 0);
+  VoidSpace space = calc_void_space(scene.pile, scene.pointers(), options_with(0.02, 0.5));
+  const double cells = double(space.grid.count());
+  const VoidMap map = find_voids(crop_to_pile(std::move(space), 0.1), {0.1});
+  ASSERT_EQ(map.robots[0].voids.size(), 1u);
+  EXPECT_LT(double(testing::peak_memory() - before) * 1024 / cells, 7);
+}
+#endif
 
 TEST(VoidSpace, RefusesVoxelsThatMemoryCannotHold) {
   VoidScene scene;

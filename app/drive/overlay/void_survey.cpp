@@ -57,7 +57,7 @@ void VoidSurvey::start(const PileState& pile, std::int64_t step, int threads) {
     try {
       VoidSpace space = calc_void_space(pile, assets_.finest_meshes(), options, report(0, kSpaceShare));
       map_ = std::make_unique<VoidMap>(
-          find_voids(crop_to_pile(space, kMargin), {voids_.radius}, report(kSpaceShare, 1 - kSpaceShare)));
+          find_voids(crop_to_pile(std::move(space), kMargin), {voids_.radius}, report(kSpaceShare, 1 - kSpaceShare)));
     } catch (...) {
       failure_ = std::current_exception();
     }

@@ -1,0 +1,14 @@
+// The ball that parts the outside from the voids, see void_space.h. Internal to kernel/voids.
+#pragma once
+
+#include "kernel/base/parallel.h"
+#include "kernel/voids/void_space.h"
+
+namespace rubble {
+
+// Marks as outside all free cells that a ball of `rolling_radius` sweeps. space: its cells are
+// solid or void so far, its clearance is that to the pieces alone. ground: whether the lowest cells
+// lie on the ground, from where no ball comes.
+void sweep_outside(VoidSpace& space, bool ground, ThreadPool& pool);
+
+}  // namespace rubble

@@ -135,13 +135,12 @@ PreparedScene prepare_scene(const Scene& scene, int threads) {
   return out;
 }
 
-PreparedScene resting_part(const PreparedScene& scene, std::vector<std::uint32_t>& first_light) {
+PreparedScene resting_part(const PreparedScene& scene) {
   PreparedScene out;
   out.meshes = scene.meshes;
   out.paints = scene.paints, out.paint_key = scene.paint_key;
   for (const PlacedMesh& piece : scene.placed) {
     if (piece.moves) continue;
-    first_light.push_back(piece.first_light);
     out.placed.push_back(piece);
     out.placed.back().first_flag = std::uint32_t(out.cluster_flags);
     out.placed.back().first_light = std::uint32_t(out.light_nodes);

@@ -49,8 +49,8 @@ struct PreparedScene {
   std::uint64_t moment = 0;          // another number whenever anything has moved
 };
 PreparedScene prepare_scene(const Scene& scene, int threads);
-// What does not move, as a scene of its own. first_light: of its placed meshes in turn, in `scene`.
-PreparedScene resting_part(const PreparedScene& scene, std::vector<std::uint32_t>& first_light);
+// What does not move, as a scene of its own, its placed meshes in the same order.
+PreparedScene resting_part(const PreparedScene& scene);
 
 // Light that reaches a node, without the direct part of the main light and the lamp.
 struct BakedLight {

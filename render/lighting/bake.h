@@ -1,9 +1,13 @@
-// Light that arrives by way of the sky and other surfaces, computed once by ray casting (Embree).
+// Light that arrives by way of the sky and other surfaces, found by ray casting (Embree).
+//
+// What all points of the scene throw back is found once. The light that a camera sees on a piece takes many more rays,
+// and is found from that when the piece is first seen: it follows from the scene alone, whoever asks and when.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -41,40 +45,98 @@ struct AirLight {
   Vec3f at(const Vec3f* grid, const Vec3f& point) const;
 };
 
-// What the bake points see of each other, for light that is found later.
-struct BakeLinks {
-  static constexpr std::size_t kPerPoint = 24;  // directions, cosine-weighted
-  static constexpr std::uint32_t kDark = 0xffffffffu;   // no surface there, or the inside of one
-  static constexpr std::uint32_t kNoRay = 0xfffffffeu;  // nothing was looked for: it does not count
+// What the bake points see of each other, for light that is found later: a view of a bake, which must outlive it. Points
+// are those of the placed meshes in turn.
+class BakeLinks {
+ public:
+  // Instead of a point: a ray that meets no surface, the inside of one, and one that does not count.
+  static constexpr std::uint32_t kSky = 0xffffffffu, kInside = 0xfffffffeu, kNone = 0xfffffffdu;
+  static constexpr std::uint32_t kClosed = 0x80000000u;  // added to the number of a point that lies inside a piece
 
-  // kPerPoint of each point in turn: another point, kDark or kNoRay. Points are those of the placed meshes
-  // in turn.
-  std::vector<std::uint32_t> seen;
-  std::vector<Vec3f> albedos;  // of each point
-  std::vector<Vec3f> radiance; // of each point by the light that was baked, matt; unit: kcd/m2
+  // hits: `count` of each point, cosine-weighted; stand_ins: of points inside a piece an open one nearby, else kNone.
+  BakeLinks(std::size_t count, const std::vector<std::uint32_t>& hits, const std::vector<std::uint32_t>& stand_ins,
+            const std::vector<Vec3f>& of_points)
+      : albedos(of_points), per_point(count), hits_(hits), stand_ins_(stand_ins) {}
+
+  const std::vector<Vec3f>& albedos;  // of each point
+  const std::size_t per_point;
+
+  // That many links, for sender().
+  const std::uint32_t* of(std::size_t point) const {
+    const std::uint32_t stand_in = stand_ins_[point];
+    return hits_.data() + (stand_in == kNone ? point : stand_in) * per_point;
+  }
+  // The open point that light comes from; kSky: none does; kNone: the link does not count.
+  std::uint32_t sender(std::uint32_t link) const {
+    if (link < kClosed || link == kNone) return link;
+    if (link > kNone) return kSky;
+    const std::uint32_t stand_in = stand_ins_[link - kClosed];
+    return stand_in == kNone ? kSky : stand_in;
+  }
+
+ private:
+  const std::vector<std::uint32_t>&hits_, &stand_ins_;
 };
-
-struct BakedScene {
-  std::vector<BakedLight> nodes;  // one a node of each placed mesh, in the order of first_light
-  AirLight air;                   // of the same light
-  BakeLinks links;                // empty under an open sky
-};
-
-// Every node and all air as if nothing stood around: the sky alone.
-BakedScene open_sky_light(const PreparedScene& scene, const LightSet& light);
 
 // Albedo for light from all around of a place on a triangle (weights of its second and third corner), the
 // mean over some centimetres. Called from several threads.
 using AlbedoAt = std::function<Vec3f(const RayScene::Triangle& triangle, float u, float v)>;
 
-// rays: of that scene. progress: called with the done fraction, on the calling thread.
-BakedScene bake_light(const PreparedScene& scene, SceneRays& rays, const LightSet& light, const AlbedoAt& albedo,
-                      const BakeOptions& options, const std::function<void(double)>& progress);
+class Baker;
 
-// The same by way of the disk cache: made only if it is not there. surfaces: what the albedos follow from
-// besides the scene, as a hash.
-BakedScene bake_light_once(const DiskCache& cache, const PreparedScene& scene, SceneRays& rays,
-                           const LightSet& light, const AlbedoAt& albedo, const std::string& surfaces, const BakeOptions& options,
-                           const std::function<void(double)>& progress);
+class LightBake {
+ public:
+  // Casts the rays of the solution, unless the cache has it. All but the albedo must outlive this. rays: of that scene, in
+  // which nothing moves. surfaces: what the albedos follow from besides the scene, as a hash. progress: called with the
+  // done fraction, on the calling thread; may be empty.
+  LightBake(const PreparedScene& scene, SceneRays& rays, const LightSet& light, const AlbedoAt& albedo,
+            const BakeOptions& options, const DiskCache& cache = DiskCache(), const std::string& surfaces = {},
+            const std::function<void(double)>& progress = {});
+  ~LightBake();  // keeps what it found in the cache
+
+  // Finds the light of those placed meshes whose light is not known yet. Returns them, in order. pieces: in any order,
+  // some perhaps more than once.
+  std::vector<std::uint32_t> light_pieces(const std::vector<std::uint32_t>& pieces);
+  std::vector<std::uint32_t> light_all();
+  bool knows(std::uint32_t piece) const { return known_[piece]; }
+  bool knows_all() const { return known_count_ == known_.size(); }
+  // One a node of each placed mesh, in the order of first_light; nothing where it is not known yet.
+  const std::vector<BakedLight>& nodes() const { return nodes_; }
+  // Of the same light; found when it is first asked for.
+  const AirLight& air();
+  BakeLinks links() const;  // valid as long as this
+  // Of each bake point by that light, matt; unit: kcd/m2.
+  const std::vector<Vec3f>& radiance() const;
+
+ private:
+  bool restore_solution();
+  void keep_solution() const;
+  void restore_pieces();
+  void keep_pieces() const;
+  std::size_t node_count(std::uint32_t piece) const;
+
+  const PreparedScene& scene_;
+  SceneRays& rays_;
+  const LightSet& light_;
+  BakeOptions options_;
+  DiskCache cache_;
+  std::string key_;
+  std::unique_ptr<Baker> baker_;
+  std::vector<BakedLight> nodes_;
+  std::vector<std::uint8_t> known_;                       // of each placed mesh
+  std::size_t known_count_ = 0, kept_count_ = 0;          // of these; of them in the cache
+  std::unique_ptr<AirLight> air_;
+};
+
+// Every node and all air as if nothing stood around: the sky alone.
+struct OpenSkyLight {
+  std::vector<BakedLight> nodes;
+  AirLight air;
+};
+OpenSkyLight open_sky_light(const PreparedScene& scene, const LightSet& light);
+
+// Of everything that a bake follows from, as a key of the cache.
+std::string bake_key(const PreparedScene& scene, const LightSet& light, const std::string& surfaces,
+                     const BakeOptions& options);
 
 }  // namespace rubble

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kAlbedos = 4;  // nodes whose mean albedo is that of a point, at most
 constexpr std::size_t kChunk = 256;  // points a job
+constexpr std::uint32_t kPlanned = 64;  // the same, where each has rays of its own number
 using NodesOfPoint = std::vector<std::uint32_t>;
 
 // Of directions spread evenly, cosine-weighted (Malley's method over a golden-ratio sequence), in an order in which those
@@ -53,18 +54,16 @@ std::vector<NodesOfPoint> nodes_of_points(const std::vector<std::uint32_t>& near
 
 }  // namespace
 
-Baker::Baker(const PreparedScene& scene, const RayScene& solid, const LightSet& light, const AlbedoAt& albedo,
-             const BakeOptions& options)
+Baker::Baker(const PreparedScene& scene, SceneRays& rays, const LightSet& light, const BakeOptions& options)
     : scene_(scene),
       light_(light),
       options_(options),
-      rays_(solid),
+      scene_rays_(rays),
       sheets_(scene),
       first_spokes_(make_spokes(std::min(kFirstRays, std::size_t(options.rays)))),
       spokes_(make_spokes(std::min(kRound, std::size_t(options.rays)))) {
   list_points();
   find_nearest_points();
-  find_albedos(albedo);
 }
 
 void Baker::list_points() {
@@ -80,8 +79,6 @@ void Baker::list_points() {
       points_.push_back(p);
     }
   }
-  first_hits_.resize(points_.size() * first_spokes_.size());
-  if (sheets_.any()) first_cleared_.assign(first_hits_.size(), 255);
   radiance_.resize(points_.size());
 }
 
@@ -131,56 +128,106 @@ void Baker::over_points(double from, double to, const std::function<void(double)
   }
 }
 
-// The direct light of far lights comes to no pixel but by the nodes.
-void Baker::show_far_light() {
-  if (light_.far.empty()) return;
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    points_[i].indirect += far_light_[i], points_[i].vector += far_vectors_[i];
-  fill_closed();
+void Baker::mark_closed() {
+  for (std::uint32_t& hit : first_hits_)
+    if (hit < kNone && !points_[hit].open) hit |= BakeLinks::kClosed;
 }
 
-void Baker::run(const std::function<void(double)>& progress) {
+// A point inside a neighbour takes a part of the light of the point that stands in for it.
+void Baker::fill_closed() {
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (!points_[i].open)
+      points_[i].indirect = substitutes_[i] != kNone ? points_[substitutes_[i]].indirect * kContact : Vec3f();
+}
+
+void Baker::solve(const AlbedoAt& albedo, const std::function<void(double)>& progress) {
+  rays_ = &scene_rays_.solid();
+  find_albedos(albedo);
+  sky_.resize(points_.size());
+  first_hits_.assign(points_.size() * first_spokes_.size(), kNone);
+  if (sheets_.any()) first_cleared_.assign(first_hits_.size(), 255);
   if (!light_.far.empty()) far_light_.resize(points_.size()), far_vectors_.resize(points_.size());
-  over_points(0, 0.4, progress, [&](std::size_t i) { trace(i); });
+  over_points(0, 0.9, progress, [&](std::size_t i) { trace(i); });
   find_substitutes();
+  mark_closed();
   for (int bounce = 0; bounce < options_.bounces; ++bounce) {
     update_radiance();
-    over_points(0.5, 0.5, progress, [&](std::size_t i) { gather_first(i); });
+    over_points(0.9, 0.9, progress, [&](std::size_t i) { gather_first(i); });
     fill_closed();
   }
   update_radiance();
-  neighbours_.resize(points_.size()), sums_.resize(points_.size()), rounds_.resize(points_.size());
-  parallel_for(scene_.placed.size(), options_.threads, [&](std::size_t piece) { plan(piece); });
-  over_points(0.5, 0.85, progress, [&](std::size_t i) { gather(i); });
-  std::vector<Point> smoothed = points_;
-  over_points(0.85, 0.9, progress, [&](std::size_t i) { smooth(i, smoothed[i]); });
-  points_.swap(smoothed);
-  fill_closed();
+  sky_ = {};
+}
+
+void Baker::save(CacheWriter& to) const {
+  std::vector<Solved> solved;
+  for (const Point& p : points_) solved.push_back({p.direct, p.indirect, p.clearance, p.room, p.open});
+  to.put(solved), to.put(first_hits_), to.put(first_cleared_), to.put(albedos_), to.put(far_light_), to.put(far_vectors_);
+}
+
+bool Baker::restore(CacheReader& from) {
+  std::vector<Solved> solved;
+  from.get(solved), from.get(first_hits_), from.get(first_cleared_), from.get(albedos_), from.get(far_light_);
+  from.get(far_vectors_);
+  const std::size_t far = light_.far.empty() ? 0 : points_.size();
+  if (!from.whole() || solved.size() != points_.size() || albedos_.size() != points_.size() ||
+      first_hits_.size() != points_.size() * first_spokes_.size() || far_light_.size() != far || far_vectors_.size() != far ||
+      first_cleared_.size() != (sheets_.any() ? first_hits_.size() : 0))
+    return false;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    Point& p = points_[i];
+    p.direct = solved[i].direct, p.indirect = solved[i].indirect;
+    p.clearance = solved[i].clearance, p.room = solved[i].room, p.open = solved[i].open;
+  }
+  find_substitutes();
   update_radiance();
-  show_far_light();
+  return true;
 }
 
-std::vector<BakedLight> Baker::node_light() const {
-  std::vector<BakedLight> out(scene_.light_nodes);
-  parallel_for(scene_.placed.size(), options_.threads, [&](std::size_t piece) {
-    const PlacedMesh& placed = scene_.placed[piece];
-    const std::vector<LightNode>& nodes = scene_.meshes[placed.mesh].light_nodes;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      Vec3f vector, indirect;
-      for (std::size_t k = 0; k < 4; ++k) {
-        const Point& p = points_[first_point_[piece] + nodes[i].points[k]];
-        vector += p.vector * nodes[i].weights[k], indirect += p.indirect * nodes[i].weights[k];
-      }
-      out[placed.first_light + i] = pack_light(vector, indirect);
-    }
+void Baker::light_pieces(const std::vector<std::uint32_t>& pieces, std::vector<BakedLight>& nodes) {
+  rays_ = &scene_rays_.solid();
+  std::vector<Piece> work;
+  for (const std::uint32_t number : pieces) {
+    const std::uint32_t first = first_point_[number], end = std::uint32_t(end_point(number));
+    work.push_back({number, first, end, std::vector<Found>(end - first)});
+  }
+  parallel_for(work.size(), options_.threads, [&](std::size_t k) { plan(work[k]); });
+  struct Job {
+    Piece* piece;
+    std::uint32_t begin, end;
+  };
+  std::vector<Job> jobs;
+  for (Piece& piece : work)
+    for (std::uint32_t begin = piece.first; begin < piece.end; begin += kPlanned)
+      jobs.push_back({&piece, begin, std::min(begin + kPlanned, piece.end)});
+  parallel_for(jobs.size(), options_.threads, [&](std::size_t k) {
+    for (std::uint32_t i = jobs[k].begin; i < jobs[k].end; ++i) gather(i, jobs[k].piece->of(i));
   });
-  return out;
+  parallel_for(work.size(), options_.threads, [&](std::size_t k) {
+    smooth(work[k]);
+    store_nodes(work[k], nodes);
+    work[k].found = {};
+  });
 }
 
-std::vector<Vec3f> Baker::triangle_radiance() const {
+void Baker::store_nodes(const Piece& piece, std::vector<BakedLight>& nodes) const {
+  const PlacedMesh& placed = scene_.placed[piece.number];
+  const std::vector<LightNode>& of_mesh = scene_.meshes[placed.mesh].light_nodes;
+  for (std::size_t i = 0; i < of_mesh.size(); ++i) {
+    Vec3f vector, indirect;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Arrived& arrived = piece.found[of_mesh[i].points[k]].arrived;
+      vector += arrived.vector * of_mesh[i].weights[k], indirect += arrived.indirect * of_mesh[i].weights[k];
+    }
+    nodes[placed.first_light + i] = pack_light(vector, indirect);
+  }
+}
+
+std::vector<Vec3f> Baker::triangle_radiance() {
+  rays_ = &scene_rays_.solid();
   std::vector<Vec3f> out;
-  out.reserve(rays_.triangles().size());
-  for (const RayScene::Triangle& t : rays_.triangles()) {
+  out.reserve(rays_->triangles().size());
+  for (const RayScene::Triangle& t : rays_->triangles()) {
     const std::uint32_t mesh = scene_.placed[t.placed].mesh;
     Vec3f sum;
     for (const std::uint32_t v : scene_.meshes[mesh].triangles[t.source].vertices)

@@ -44,14 +44,6 @@ void Baker::Sum::add(const Vec3f& radiance, const Vec3f& w, float cosine) {
   ++rays;
 }
 
-// Illuminance E = pi / N sum L, and the vector V with E(n') = dot(n', V) for normals near n: V = pi / N
-// sum L w / (n.w), its length kept in check where w grazes the surface.
-void Baker::Sum::finish(Point& p) const {
-  const float scale = portable::kPiF / float(std::max(rays, 1));
-  p.indirect = light * scale;
-  p.vector = direction * scale + p.normal * (luminance(p.indirect) - dot(direction, p.normal) * scale);
-}
-
 Vec3f Baker::Fan::direction(std::size_t k) const {
   const Spoke& spoke = spokes[k];
   const float u = (spoke.stratum + height) / float(spokes.size()), r = std::sqrt(u);
@@ -91,7 +83,7 @@ bool Baker::below_soil(const Point& p) const {
 // The point nearest to one of the nodes about a place, drawn by its weight there, so that the mean over many rays
 // is that of the light between nodes. draw: in [0, 1).
 std::uint32_t Baker::drawn_point(const RayScene::PreciseHit& hit, float draw) const {
-  const RayScene::Triangle& t = rays_.triangles()[hit.triangle];
+  const RayScene::Triangle& t = rays_->triangles()[hit.triangle];
   const std::uint32_t mesh = scene_.placed[t.placed].mesh;
   const LightNodes nodes = find_light_nodes(scene_.meshes[mesh], t.source, hit.u, hit.v);
   const std::size_t k = draw < nodes.weight[0] ? 0 : draw < nodes.weight[0] + nodes.weight[1] ? 1 : 2;
@@ -119,7 +111,7 @@ void Baker::trace(std::size_t i) {
   std::array<RayScene::PreciseHit, kFirstRays> hits;
   for (std::size_t r = 0; r < count; ++r)
     rays[r] = {from[r % origins], 0, fan.direction(r), kLightReach};
-  rays_.cast_many(rays.data(), count, RayScene::Order::scattered, hits.data());
+  rays_->cast_many(rays.data(), count, RayScene::Order::scattered, hits.data());
   std::array<int, kMostOrigins> cast{}, inside{};
   for (std::size_t r = 0; r < count; ++r)
     ++cast[r % origins], inside[r % origins] += hits[r].triangle != RayScene::kNone && hits[r].back;
@@ -138,9 +130,9 @@ void Baker::trace(std::size_t i) {
     if (!first_cleared_.empty())
       first_cleared_[i * count + r] =
           std::uint8_t(255 * cleared(rays[r], open ? kLightReach : hits[r].distance) + 0.5f);
-    if (open) p.sky += light_.sky.radiance(rays[r].direction) * first_cleared(i * count + r);
+    if (open) sky_[i] += light_.sky.radiance(rays[r].direction) * first_cleared(i * count + r);
   }
-  p.sky = seen > 0 ? p.sky * (1 / seen) : Vec3f();
+  sky_[i] = seen > 0 ? sky_[i] * (1 / seen) : Vec3f();
   p.clearance = near > 0 ? seen / near : kLightReach;
   p.room = room / std::max(seen, 1.0f);
   find_direct(i);
@@ -193,7 +185,7 @@ void Baker::find_direct(std::size_t i) {
       light[count++] = sample.illuminance * (facing / float(places.size()));
     }
     std::array<std::uint8_t, kDirectPlaces> hidden;
-    if (count) rays_.blocked_many(rays.data(), count, RayScene::Order::coherent, hidden.data());
+    if (count) rays_->blocked_many(rays.data(), count, RayScene::Order::coherent, hidden.data());
     for (std::size_t k = 0; k < count; ++k)
       if (!hidden[k]) p.direct += light[k] * cleared(rays[k], rays[k].farthest);
   }
@@ -211,7 +203,7 @@ Vec3f Baker::find_far(Point& p) const {
     const float facing = dot(sample.to_light, from.normal);
     if (facing <= 0 || luminance(sample.illuminance) <= 0) continue;
     const float distance = std::min(sample.distance * 0.999f, kLightReach);
-    if (rays_.blocked(from.position, sample.to_light, 0, distance)) continue;
+    if (rays_->blocked(from.position, sample.to_light, 0, distance)) continue;
     const float clear = cleared({from.position, 0, sample.to_light, distance}, distance);
     p.direct += sample.illuminance * (facing * clear);
     vector += sample.to_light * (luminance(sample.illuminance) * clear);
@@ -226,9 +218,9 @@ void Baker::gather_first(std::size_t i) {
   int rays = 0;
   for (std::size_t r = 0; r < count; ++r) {
     rays += codes[r] != kNone;
-    if (codes[r] < kNone) sum += radiance_[codes[r]] * first_cleared(i * count + r);
+    if (codes[r] < kNone) sum += radiance_at(codes[r]) * first_cleared(i * count + r);
   }
-  points_[i].indirect = rays ? (sum * (1 / float(rays)) + points_[i].sky) * portable::kPiF : Vec3f();
+  points_[i].indirect = rays ? (sum * (1 / float(rays)) + sky_[i]) * portable::kPiF : Vec3f();
 }
 
 Baker::Sum Baker::first_sum(std::size_t i) const {
@@ -239,7 +231,7 @@ Baker::Sum Baker::first_sum(std::size_t i) const {
     const std::uint32_t code = first_hits_[i * count + r];
     if (code == kNone) continue;
     const Vec3f w = fan.direction(r);
-    const Vec3f light = code == kSky ? light_.sky.radiance(w) : code == kInside ? Vec3f() : radiance_[code];
+    const Vec3f light = code == kSky ? light_.sky.radiance(w) : code == kInside ? Vec3f() : radiance_at(code);
     sum.add(light * first_cleared(i * count + r), w, dot(w, fan.z));
   }
   return sum;
@@ -257,7 +249,7 @@ void Baker::add_round(std::size_t i, std::uint32_t round, Sum& sum) const {
   const std::size_t count = spokes_.size();
   for (std::size_t r = 0; r < count; ++r)
     rays[r] = {from[(r + round) % origins], 0, fan.direction(r), kLightReach};
-  rays_.cast_many(rays.data(), count, RayScene::Order::scattered, hits.data());
+  rays_->cast_many(rays.data(), count, RayScene::Order::scattered, hits.data());
   const std::uint32_t draws = std::uint32_t(options_.seed) + round * 0x9e3779b9u;
   for (std::size_t r = 0; r < count; ++r) {
     const Vec3f& w = rays[r].direction;
@@ -270,7 +262,7 @@ void Baker::add_round(std::size_t i, std::uint32_t round, Sum& sum) const {
 }
 
 // about: what rays near the point say, its own among them.
-int Baker::rounds_for(const Point& p, const Sum& about) const {
+int Baker::rounds_for(const Point& p, float noise_left, const Sum& about) const {
   if (!p.open || p.room < kHidden || about.rays == 0) return 0;
   const float freedom = std::clamp(p.room / kWide, kCrack, 1.0f);
   const float mean = luminance(about.light) / float(about.rays);
@@ -281,27 +273,27 @@ int Baker::rounds_for(const Point& p, const Sum& about) const {
   if (error <= 0) return 0;
   // Directions that are spread evenly have about half the noise of chance.
   const float most = scene_.placed[p.piece].surrounds ? std::min(kRaysAround, float(options_.rays)) : float(options_.rays);
-  const float needed = std::min(0.25f * variance * p.noise_left / (error * error), most * freedom);
+  const float needed = std::min(0.25f * variance * noise_left / (error * error), most * freedom);
   return int(std::ceil(std::max(needed - float(first_spokes_.size()), 0.0f) / float(spokes_.size())));
 }
 
 // What the first rays of points of one piece and side in a cell of space say together. A point that went by its own
 // rays alone would stop too early just where they missed what is bright, and be too dark.
-Baker::Regions Baker::look_about(std::size_t piece) {
+Baker::Regions Baker::look_about(Piece& piece) const {
   Regions regions;
   const auto at = [](float x) { return int(std::floor(x / kAbout)); };
-  for (std::size_t i = first_point_[piece]; i < end_point(piece); ++i) {
+  for (std::uint32_t i = piece.first; i < piece.end; ++i) {
     const Point& p = points_[i];
     Region& region = regions[{at(p.position.x), at(p.position.y), at(p.position.z), dominant_direction(p.normal)}];
-    region.points.push_back(std::uint32_t(i));
-    sums_[i] = first_sum(i);
-    region.sum.light += sums_[i].light, region.sum.squares += sums_[i].squares, region.sum.rays += sums_[i].rays;
+    region.points.push_back(i);
+    const Sum& sum = piece.of(i).sum = first_sum(i);
+    region.sum.light += sum.light, region.sum.squares += sum.squares, region.sum.rays += sum.rays;
     region.bright_nearness += bright_nearness(i);
   }
   for (const auto& [cell, region] : regions) {
     const float near = region.bright_nearness;
     const float far = near > 0 ? luminance(region.sum.light) / near : kLightReach;
-    for (const std::uint32_t i : region.points) points_[i].light_distance = far;
+    for (const std::uint32_t i : region.points) piece.of(i).light_distance = far;
   }
   return regions;
 }
@@ -312,21 +304,29 @@ float Baker::bright_nearness(std::size_t i) const {
   const std::uint32_t* codes = first_hits_.data() + i * first_spokes_.size();
   for (std::size_t r = 0; r < first_spokes_.size(); ++r)
     if (codes[r] < kNone)
-      sum += luminance(radiance_[codes[r]]) /
-             std::max(distance(points_[codes[r]].position, points_[i].position), 0.01f);
+      sum += luminance(radiance_at(codes[r])) /
+             std::max(distance(points_[codes[r] & ~BakeLinks::kClosed].position, points_[i].position), 0.01f);
   return sum;
 }
 
-void Baker::plan(std::size_t piece) {
+void Baker::plan(Piece& piece) {
   const Regions regions = look_about(piece);
   find_neighbours(piece);
   for (const auto& [cell, region] : regions)
-    for (const std::uint32_t i : region.points) rounds_[i] = rounds_for(points_[i], region.sum);
+    for (const std::uint32_t i : region.points)
+      piece.of(i).rounds = rounds_for(points_[i], piece.of(i).noise_left, region.sum);
 }
 
-void Baker::gather(std::size_t i) {
-  for (int round = 1; round <= rounds_[i]; ++round) add_round(i, std::uint32_t(round), sums_[i]);
-  sums_[i].finish(points_[i]);
+// Illuminance E = pi / N sum L, and the vector V with E(n') = dot(n', V) for normals near n: V = pi / N
+// sum L w / (n.w), its length kept in check where w grazes the surface.
+void Baker::gather(std::size_t i, Found& found) const {
+  Sum& sum = found.sum;
+  for (int round = 1; round <= found.rounds; ++round) add_round(i, std::uint32_t(round), sum);
+  const Vec3f& n = points_[i].normal;
+  const float scale = portable::kPiF / float(std::max(sum.rays, 1));
+  found.arrived.indirect = sum.light * scale;
+  found.arrived.vector =
+      sum.direction * scale + n * (luminance(found.arrived.indirect) - dot(sum.direction, n) * scale);
 }
 
 }  // namespace rubble

@@ -291,6 +291,14 @@ void LiveLight::light_resting(const PlacedMesh& piece) {
   }
 }
 
+void LiveLight::set_resting(std::uint32_t piece, const BakedLight* light) {
+  const PlacedMesh& placed = scene_.placed[piece];
+  const std::size_t count = scene_.meshes[placed.mesh].light_nodes.size();
+  std::copy_n(light, count, resting_.begin() + placed.first_light);
+  std::copy_n(light, count, out_.begin() + placed.first_light);
+  if (!changed_.empty() && placed.there) light_resting(placed);
+}
+
 const std::vector<BakedLight>& LiveLight::update() {
   solve(&without_, now_);
   changed_ = grid_.find_changed_cells(without_.filled, now_.filled);

@@ -21,7 +21,7 @@ namespace rubble {
 class LiveLight {
  public:
   // scene: without anything that moves there. resting: the light of what rests, by first_light; what
-  // it holds for the rest does not count. albedo: as the bake's. Both scene and light must outlive it.
+  // it holds for the rest does not count, and what is not known yet is nothing. albedo: as the bake's. Both scene and light must outlive it.
   LiveLight(const PreparedScene& scene, const LightSet& light, std::vector<BakedLight> resting,
             const AlbedoAt& albedo, int threads);
   ~LiveLight();
@@ -30,6 +30,8 @@ class LiveLight {
   // before does not count.
   const std::vector<BakedLight>& update();
   const std::vector<BakedLight>& light() const { return out_; }  // of the update before
+  // The light of what rests at all nodes of a placed mesh, which was not known before.
+  void set_resting(std::uint32_t piece, const BakedLight* light);
 
  private:
   struct Hit;

@@ -196,16 +196,17 @@ FogLight::Place FogLight::place_of_mover(const Vec3f& surface, const Vec3f& norm
   return {usual_off(), field_.seen.at(field_.grid, surface + normal * usual_off())};
 }
 
-std::vector<BakedLight> FogLight::weaken(const PreparedScene& scene, const std::vector<BakedLight>& clear) {
-  std::vector<BakedLight> out = clear;
+void FogLight::weaken(const PreparedScene& scene, const std::vector<BakedLight>& clear,
+                      const std::vector<std::uint32_t>& pieces, std::vector<BakedLight>& out) {
   std::vector<std::size_t> first;
   std::size_t count = 0;
   for (const PlacedMesh& placed : scene.placed) {
     first.push_back(count);
     if (!placed.moves) count += scene.meshes[placed.mesh].bake_points.size();
   }
-  pool_.run(int(scene.placed.size()), 1, [&](int begin, int end) {
-    for (std::size_t k = std::size_t(begin); k < std::size_t(end); ++k) {
+  pool_.run(int(pieces.size()), 1, [&](int begin, int end) {
+    for (int at = begin; at < end; ++at) {
+      const std::size_t k = pieces[std::size_t(at)];
       const PlacedMesh& placed = scene.placed[k];
       const PreparedMesh& mesh = scene.meshes[placed.mesh];
       std::vector<Change> changes;
@@ -231,7 +232,6 @@ std::vector<BakedLight> FogLight::weaken(const PreparedScene& scene, const std::
       }
     }
   });
-  return out;
 }
 
 void FogLight::set_lamp(const PlacedLamp& lamp, const Radiance& radiance, const std::function<bool(const Vec3f&)>& sees) {

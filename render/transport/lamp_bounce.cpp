@@ -33,17 +33,16 @@ Vec3f direction_of(int x, int y) {
 
 }  // namespace
 
-LampBounce::LampBounce(const PreparedScene& scene, SceneRays& rays, BakeLinks links,
+LampBounce::LampBounce(const PreparedScene& scene, SceneRays& rays, const BakeLinks& links,
                        std::vector<std::uint32_t> first_point, int threads)
     : scene_(scene),
-      links_(std::move(links)),
+      links_(links),
       first_point_(std::move(first_point)),
       pool_(std::max(1, threads)),
       rays_(rays),
       map_(std::size_t(kSide) * kSide) {
   points_.resize(links_.albedos.size());
   lit_.resize(points_.size() / 64 + 1);
-  for (std::size_t i = 0; i < links_.seen.size(); i += 2) coarse_links_.push_back(links_.seen[i]);
   radiance_.resize(points_.size()), once_.resize(points_.size()), arrived_.resize(points_.size());
   point_shows_.resize(points_.size()), node_shows_.resize(scene.light_nodes);
   is_seen_.resize(scene.placed.size());
@@ -183,16 +182,16 @@ void LampBounce::mark_lit() {
 
 // By every other ray. Most end where the lamp does not shine, which the bits say without a look at the light.
 Vec3f LampBounce::gather_colour(std::size_t point) const {
-  constexpr std::size_t kRays = BakeLinks::kPerPoint / 2;
-  const std::uint32_t* links = coarse_links_.data() + point * kRays;
+  const std::uint32_t* links = links_.of(point);
   Light sum;
   int rays = 0;
-  for (std::size_t k = 0; k < kRays; ++k) {
-    rays += links[k] != BakeLinks::kNoRay;
-    if (links[k] >= BakeLinks::kNoRay) continue;  // or dark
-    if (!(lit_[links[k] / 64] >> (links[k] % 64) & 1)) continue;
-    const Light& light = radiance_[links[k]];
-    const float share = extinction_ > 0 ? passes(point, links[k]) : 1;
+  for (std::size_t k = 0; k < links_.per_point; k += 2) {
+    const std::uint32_t sender = links_.sender(links[k]);
+    rays += sender != BakeLinks::kNone;
+    if (sender >= BakeLinks::kNone) continue;  // or dark
+    if (!(lit_[sender / 64] >> (sender % 64) & 1)) continue;
+    const Light& light = radiance_[sender];
+    const float share = extinction_ > 0 ? passes(point, sender) : 1;
     for (std::size_t c = 0; c < 4; ++c) sum.c[c] += light.c[c] * share;
   }
   const float scale = rays > 0 ? portable::kPiF / float(rays) : 0;
@@ -201,17 +200,17 @@ Vec3f LampBounce::gather_colour(std::size_t point) const {
 
 // By all rays, and with the direction.
 LampBounce::Arrived LampBounce::gather(std::size_t point) const {
-  const std::uint32_t* links = links_.seen.data() + point * BakeLinks::kPerPoint;
+  const std::uint32_t* links = links_.of(point);
   Arrived out;
   int rays = 0;
-  for (std::size_t k = 0; k < BakeLinks::kPerPoint; ++k) {
-    if (links[k] == BakeLinks::kNoRay) continue;
-    ++rays;
-    if (links[k] == BakeLinks::kDark) continue;
-    const float* colour = radiance_[links[k]].c;
+  for (std::size_t k = 0; k < links_.per_point; ++k) {
+    const std::uint32_t sender = links_.sender(links[k]);
+    rays += sender != BakeLinks::kNone;
+    if (sender >= BakeLinks::kNone) continue;
+    const float* colour = radiance_[sender].c;
     Vec3f light(colour[0], colour[1], colour[2]);
     if (light.y <= 0) continue;
-    const Vec3f way = points_[links[k]].position - points_[point].position;
+    const Vec3f way = points_[sender].position - points_[point].position;
     const float away = std::max(norm(way), 1e-4f);
     if (extinction_ > 0) light *= quick::exp(-extinction_ * away);
     out.colour += light;
@@ -285,6 +284,14 @@ void LampBounce::restore(const std::vector<BakedLight>& base, std::uint64_t vers
     const std::size_t at = scene_.placed[n.placed].first_light + n.node;
     out_[at] = base[at];
   }
+}
+
+void LampBounce::change_base(const std::vector<BakedLight>& base, std::uint64_t version,
+                             const std::vector<LightRange>& ranges) {
+  if (version != version_) return;  // add_to() will take all of it
+  for (const LightRange& range : ranges)
+    std::copy(base.begin() + std::ptrdiff_t(range.begin), base.begin() + std::ptrdiff_t(range.end),
+              out_.begin() + std::ptrdiff_t(range.begin));
 }
 
 void LampBounce::set_lamp(const PlacedLamp& lamp, float extinction) {

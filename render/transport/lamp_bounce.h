@@ -21,10 +21,10 @@ namespace rubble {
 
 class LampBounce {
  public:
-  // The scene must outlive it. links: of a bake of what rests there; what moves gets nothing.
+  // The scene and the bake of the links must outlive it. links: of what rests there; what moves gets nothing.
   // first_point: of each placed mesh in turn, in the links; kNoPoints: it is not among them.
   static constexpr std::uint32_t kNoPoints = 0xffffffffu;
-  LampBounce(const PreparedScene& scene, SceneRays& rays, BakeLinks links, std::vector<std::uint32_t> first_point,
+  LampBounce(const PreparedScene& scene, SceneRays& rays, const BakeLinks& links, std::vector<std::uint32_t> first_point,
              int threads);
 
   struct Shown {
@@ -42,6 +42,8 @@ class LampBounce {
   // version: another number whenever `base` has changed.
   const std::vector<BakedLight>& add_to(const std::vector<BakedLight>& base, std::uint64_t version,
                                         const std::vector<Shown>& shown, FogLight* fog);
+  // `base` of that version has got light in those ranges, where it had none.
+  void change_base(const std::vector<BakedLight>& base, std::uint64_t version, const std::vector<LightRange>& ranges);
   // Where that differs from `base`, of the last add_to() or, if it was of the same base, the last two. Of each
   // placed mesh at most one range of each, in order.
   const std::vector<LightRange>& changed() const { return changed_; }
@@ -87,9 +89,7 @@ class LampBounce {
   float extinction_ = 0;                  // of the air about it; unit: 1/m
   std::uint64_t version_ = 0;             // of the base that out_ is made of; 0: none
   std::vector<float> map_;                // distances by direction, see distance_towards(); unit: m
-  // For gather_colour(): every other link of each point, and a bit for each point that is lit.
-  std::vector<std::uint32_t> coarse_links_;
-  std::vector<std::uint64_t> lit_;
+  std::vector<std::uint64_t> lit_;        // a bit for each point that is, for gather_colour()
   std::vector<std::uint32_t> seen_;       // placed meshes that the lamp may see
   std::vector<std::uint8_t> is_seen_;     // of each placed mesh
   std::vector<ShownNode> shown_nodes_;    // of the seen, each once

@@ -101,7 +101,7 @@ FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surface
   const AirLamp glow = glow_of(light.lamp, view.lamp_bearer());
   const Air air = scene_.air_at(view.stamp_ns);
   const FogLight* fog = scene_.fog_light();
-  const LitAir lit{scene_.air_light, scene_.resting_light, fog ? &fog->field() : nullptr,
+  const LitAir lit{scene_.air_light(), scene_.resting_light, fog ? &fog->field() : nullptr,
                    air_box(scene_.scene.bounds)};
   air_volume_.build(view, air, lit, &glow, drops_drawn,
                     farthest_in_air(view, surfaces.depth_behind()),
@@ -131,6 +131,10 @@ void ColourDrawer::draw_traced(const ViewRays& view, std::optional<float> exposu
   rgba = develop_image(radiance, k.width, k.height, gains, image.exposure);
 }
 
+void ColourDrawer::light_shown(DrawnSurfaces& surfaces) {
+  if (!scene_.knows_all_light()) scene_.light_pieces(surfaces.shown_pieces());
+}
+
 void ColourDrawer::set_bounce(bool shows, DrawnSurfaces& surfaces) {
   if (shows)
     scene_.add_bounce(surfaces.shown());
@@ -151,6 +155,7 @@ void ColourDrawer::draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces,
     light = light_view(view, surfaces, false);
     if (metered) image.exposure = expose(resolve_->meter(projection, view.world_from_camera, images, light));
   };
+  light_shown(surfaces);
   scene_.light_air(view.stamp_ns);
   bool bounce = scene_.aim_lamp(view.lamp_bearer(), view.stamp_ns);
   if (bounce && !metered) bounce = scene_.bounce_shows(image.exposure);
@@ -196,6 +201,7 @@ std::vector<float> ColourDrawer::draw_radiance(const ViewRays& view, DrawnSurfac
   scene_.move_to(view.stamp_ns);
   if (reference_) return trace(view);
   const SurfaceImages images = surfaces.images();
+  light_shown(surfaces);
   scene_.light_air(view.stamp_ns);
   set_bounce(scene_.aim_lamp(view.lamp_bearer(), view.stamp_ns), surfaces);
   const FrameLight light = light_view(view, surfaces, true);

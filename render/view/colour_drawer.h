@@ -42,6 +42,7 @@ class ColourDrawer {
   std::vector<float> trace(const ViewRays& view) const;
   void draw_traced(const ViewRays& view, std::optional<float> exposure,
                    std::vector<std::uint8_t>& rgba, ColourImage& image) const;
+  void light_shown(DrawnSurfaces& surfaces);             // finds the light of what shows
   void set_bounce(bool shows, DrawnSurfaces& surfaces);  // light of the lamp by way of surfaces
   void draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces, std::optional<float> exposure,
                    std::vector<std::uint8_t>& rgba, ColourImage& image);

@@ -53,7 +53,7 @@ bool DropDrawer::sheltered(const Drop& drop, double seconds) const {
 Vec3f DropDrawer::radiance_of(const Drop& drop, const Vec3& direction, const AirLamp& lamp) const {
   const Scatterer drops{0, 0, 1};
   const Vec3f p(drop.place), away(direction);
-  Vec3f sum = even_glow(scene_.air_light, scene_.light, drops, p) + lamp_glow(lamp, drops, p, away, 0);
+  Vec3f sum = even_glow(scene_.air_light(), scene_.light, drops, p) + lamp_glow(lamp, drops, p, away, 0);
   for (const LightModel& model : scene_.light.lights) {
     const LightModel::Sample light = model.at(p);
     if (light.illuminance == Vec3f() ||

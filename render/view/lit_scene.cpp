@@ -33,23 +33,6 @@ float most_gloss(const PreparedScene& scene) {
   return most;
 }
 
-// What of a scene rests, and its rays; where nothing moves, the scene itself.
-struct RestingPart {
-  RestingPart(const PreparedScene& whole, SceneRays& whole_rays, bool moves)
-      : own(moves ? resting_part(whole, first_light) : PreparedScene()),
-        own_rays(own),
-        scene(moves ? own : whole),
-        rays(moves ? own_rays : whole_rays) {}
-  RestingPart(const RestingPart&) = delete;
-  RestingPart& operator=(const RestingPart&) = delete;
-
-  std::vector<std::uint32_t> first_light;  // in the whole scene, of each piece that rests; empty: it is the whole
-  PreparedScene own;                       // empty: it is the whole
-  SceneRays own_rays;
-  const PreparedScene& scene;
-  SceneRays& rays;
-};
-
 bool shines(const PreparedScene& scene) {
   for (const PreparedMesh& mesh : scene.meshes)
     for (const PreparedTriangle& t : mesh.triangles)
@@ -58,6 +41,18 @@ bool shines(const PreparedScene& scene) {
 }
 
 }  // namespace
+
+LitScene::RestingPart::RestingPart(const PreparedScene& whole, SceneRays& whole_rays, bool moves)
+    : own(moves ? resting_part(whole) : PreparedScene()),
+      own_rays(own),
+      scene(moves ? own : whole),
+      rays(moves ? own_rays : whole_rays) {
+  for (std::uint32_t i = 0; i < whole.placed.size(); ++i) {
+    const bool rests = !whole.placed[i].moves;
+    in_part.push_back(rests ? std::uint32_t(in_whole.size()) : kNone);
+    if (rests) in_whole.push_back(i);
+  }
+}
 
 LitScene::LitScene(Device& d, const Scene& s, const RenderOptions& o,
                    const std::function<void(double)>& progress)
@@ -75,20 +70,23 @@ LitScene::LitScene(Device& d, const Scene& s, const RenderOptions& o,
       seed(s.seed),
       carried_lights_(s.carried_lights) {
   progress(0.05);
-  BakedScene baked = bake(s.wetness, [&](double f) { progress(0.05 + 0.9 * f); });
-  air_light = std::move(baked.air);
-  links_ = std::move(baked.links);
-  for (const Vec3f& r : links_.radiance) radiance_.push_back({{r.x, r.y, r.z, 0}});
-  links_.radiance = {};
-  on_device = device.load(scene, light, baked.nodes, {o.threads, o.shadow_size, !is_traced(), o.instruction_set});
+  bake(s.wetness, [&](double f) { progress(0.05 + 0.9 * f); });
+  std::vector<BakedLight> whole;
+  if (moving.any()) {
+    whole.resize(scene.light_nodes);
+    for (const std::uint32_t piece : lit_pieces()) {
+      const std::uint32_t first = resting_->scene.placed[resting_->in_part[piece]].first_light;
+      std::copy_n(resting_nodes().begin() + first, scene.meshes[scene.placed[piece].mesh].light_nodes.size(),
+                  whole.begin() + scene.placed[piece].first_light);
+    }
+  }
+  on_device = device.load(scene, light, moving.any() ? whole : resting_nodes(),
+                          {o.threads, o.shadow_size, !is_traced(), o.instruction_set});
   if (moving.any()) {
     const LookSurfaces surfaces(scene, patterns, ground_map, s.wetness);
-    live_light = std::make_unique<LiveLight>(scene, resting_light, std::move(baked.nodes),
-                                             drawn_albedo(surfaces), o.threads);
-  } else {
-    baked_nodes_ = std::move(baked.nodes);
+    live_light = std::make_unique<LiveLight>(scene, resting_light, std::move(whole), drawn_albedo(surfaces), o.threads);
+    on_device->move();  // carried lights, and nothing else yet
   }
-  if (moving.any()) on_device->move();  // carried lights, and nothing else yet
   frame_light = {&light, is_traced() ? nullptr : &on_device->shadows(), s.lamp, medium.clear(), s.wetness, most_gloss(scene), shines(scene), scene.surrounded};
   frame_light.soft_sun = options.colour.quality != RenderQuality::draft;
   frame_light.glass = scene.glass;
@@ -98,31 +96,50 @@ LitScene::LitScene(Device& d, const Scene& s, const RenderOptions& o,
 }
 
 // What rests. Of a still scene that is all of it.
-BakedScene LitScene::bake(double wetness, const std::function<void(double)>& progress) {
-  const RestingPart resting(scene, rays, moving.any());
-  const PreparedScene& part = resting.scene;
-  BakedScene baked;
-  if (options.bake && !is_traced()) {
-    BakeOptions bake;
-    bake.threads = options.threads;
-    bake.rays = options.bake_rays;
-    bake.seed = seed;
-    const LookSurfaces surfaces(part, patterns, ground_map, wetness);
-    baked = bake_light_once(DiskCache(options.cache_folder), part, resting.rays, resting_light, drawn_albedo(surfaces),
-                            surroundings_key({part, resting_light, patterns, ground_map, wetness}), bake,
-                            progress);
-  } else {
-    baked = open_sky_light(part, resting_light);
+void LitScene::bake(double wetness, const std::function<void(double)>& progress) {
+  resting_ = std::make_unique<RestingPart>(scene, rays, moving.any());
+  const PreparedScene& part = resting_->scene;
+  if (!options.bake || is_traced()) {
+    open_sky_ = open_sky_light(part, resting_light);
+    return;
   }
-  if (!moving.any()) return baked;
-  std::vector<BakedLight> nodes(scene.light_nodes);
-  for (std::size_t i = 0; i < part.placed.size(); ++i) {
-    const std::size_t count = part.meshes[part.placed[i].mesh].light_nodes.size();
-    std::copy_n(baked.nodes.begin() + part.placed[i].first_light, count,
-                nodes.begin() + resting.first_light[i]);
+  BakeOptions bake;
+  bake.threads = options.threads;
+  bake.rays = options.bake_rays;
+  bake.seed = seed;
+  const LookSurfaces surfaces(part, patterns, ground_map, wetness);
+  bake_ = std::make_unique<LightBake>(part, resting_->rays, resting_light, drawn_albedo(surfaces), bake,
+                                      DiskCache(options.cache_folder),
+                                      surroundings_key({part, resting_light, patterns, ground_map, wetness}), progress);
+}
+
+// Of the whole: what rests and has its light.
+std::vector<std::uint32_t> LitScene::lit_pieces() const {
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t part = 0; part < resting_->in_whole.size(); ++part)
+    if (!bake_ || bake_->knows(part)) out.push_back(resting_->in_whole[part]);
+  return out;
+}
+
+void LitScene::light_pieces(const std::optional<std::vector<std::uint32_t>>& pieces) {
+  if (knows_all_light()) return;
+  std::vector<std::uint32_t> wanted;
+  if (pieces)
+    for (const std::uint32_t piece : *pieces)
+      if (resting_->in_part[piece] != RestingPart::kNone) wanted.push_back(resting_->in_part[piece]);
+  std::vector<std::uint32_t> found = pieces ? bake_->light_pieces(wanted) : bake_->light_all();
+  if (found.empty()) return;
+  std::vector<LightRange> changed;
+  for (std::uint32_t& piece : found) {
+    const std::uint32_t first = resting_->scene.placed[piece].first_light;
+    piece = resting_->in_whole[piece];
+    if (live_light) live_light->set_resting(piece, resting_nodes().data() + first);
+    const PlacedMesh& placed = scene.placed[piece];
+    changed.push_back({placed.first_light, placed.first_light + scene.meshes[placed.mesh].light_nodes.size()});
   }
-  baked.nodes = std::move(nodes);
-  return baked;
+  if (FogLight* fog = fog_light()) fog->weaken(scene, clear_nodes(), found, weakened_nodes_);
+  if (lamp_bounce_) lamp_bounce_->change_base(nodes(), light_version_, changed);
+  on_device->set_light(*frame_light.nodes, &changed);
 }
 
 void LitScene::move_to(std::int64_t stamp_ns) {
@@ -137,14 +154,19 @@ void LitScene::move_to(std::int64_t stamp_ns) {
 void LitScene::light_air(std::int64_t stamp_ns) {
   if (is_traced() || (!air_changed_ && !surfaces_changed_)) return;
   const bool draft = options.colour.quality == RenderQuality::draft;
-  if (!draft && !medium.clear() && !fog_light_ && !radiance_.empty()) {
-    const RestingPart resting(scene, rays, moving.any());
-    fog_light_ = std::make_unique<FogLight>(resting.scene, resting.rays.solid(), air_box(scene.bounds), resting_light,
-                                            std::move(radiance_), options.threads);
+  if (!draft && !medium.clear() && !fog_light_ && bake_) {
+    FogLight::Radiance radiance;
+    for (const Vec3f& r : bake_->radiance()) radiance.push_back({{r.x, r.y, r.z, 0}});
+    fog_light_ = std::make_unique<FogLight>(resting_->scene, resting_->rays.solid(), air_box(scene.bounds), resting_light,
+                                            std::move(radiance), options.threads);
   }
   if (FogLight* fog = fog_light()) {
     if (air_changed_) fog->set_air(air_at(stamp_ns));
-    weakened_nodes_ = fog->weaken(scene, clear_nodes());
+    std::vector<std::uint32_t> lit = lit_pieces();
+    for (std::uint32_t piece = 0; piece < scene.placed.size(); ++piece)
+      if (scene.placed[piece].moves) lit.push_back(piece);
+    weakened_nodes_.resize(scene.light_nodes);
+    fog->weaken(scene, clear_nodes(), lit, weakened_nodes_);
   }
   air_changed_ = surfaces_changed_ = false;
   ++light_version_;
@@ -174,13 +196,13 @@ LampBounce& LitScene::lamp_bounce() {
     first_point.push_back(piece.moves ? LampBounce::kNoPoints : next);
     if (!piece.moves) next += std::uint32_t(scene.meshes[piece.mesh].bake_points.size());
   }
-  lamp_bounce_ = std::make_unique<LampBounce>(scene, rays, std::move(links_), std::move(first_point), options.threads);
+  lamp_bounce_ = std::make_unique<LampBounce>(scene, rays, bake_->links(), std::move(first_point), options.threads);
   return *lamp_bounce_;
 }
 
 bool LitScene::aim_lamp(const Pose& bearer, std::int64_t stamp_ns) {
   const LampSpec& lamp = frame_light.lamp;
-  const bool lit = lamp.on && lamp.intensity_cd > 0 && (lamp_bounce_ || !links_.albedos.empty());
+  const bool lit = lamp.on && lamp.intensity_cd > 0 && bake_;
   FogLight* fog = fog_light();
   lamp_fog_ = nullptr;
   if (lit) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "render/device/device.h"
 #include "render/geometry/geometry.h"
@@ -36,7 +37,6 @@ struct LitScene {
   MovingPieces moving;                    // what move_to() moves
   LightSet light;                         // of the place, carried lights as at the moment of the last move_to()
   LightSet resting_light;                 // without carried ones
-  AirLight air_light;                     // baked light in the air
   Medium medium;                          // fog, smoke and dust
   std::int64_t start_ns;                  // the stamp at which the time of the medium is zero
   std::uint64_t seed;                     // as Scene::seed
@@ -48,6 +48,12 @@ struct LitScene {
   bool is_traced() const { return options.colour.quality == RenderQuality::reference; }
   // Puts what moves where it is at that stamp, and lights it there.
   void move_to(std::int64_t stamp_ns);
+  // Baked light in the air.
+  const AirLight& air_light() { return bake_ ? bake_->air() : open_sky_.air; }
+  // Finds the light of those placed meshes, of which some pixel is seen, and brings it to the device. pieces: in any
+  // order, some perhaps more than once; nothing: all.
+  void light_pieces(const std::optional<std::vector<std::uint32_t>>& pieces);
+  bool knows_all_light() const { return !bake_ || bake_->knows_all(); }
   // Brings the light of the place to the air of that stamp, and to the device, if it is not there yet.
   void light_air(std::int64_t stamp_ns);
   // How fog changes it; null: the air is clear, or nothing is baked.
@@ -65,10 +71,27 @@ struct LitScene {
   void change(const LampSpec& lamp, const AirSpec& air);
 
  private:
+  // What of the scene rests; where nothing moves, the scene itself.
+  struct RestingPart {
+    RestingPart(const PreparedScene& whole, SceneRays& whole_rays, bool moves);
+    RestingPart(const RestingPart&) = delete;
+    RestingPart& operator=(const RestingPart&) = delete;
+
+    PreparedScene own;  // empty: it is the whole
+    SceneRays own_rays;
+    const PreparedScene& scene;
+    SceneRays& rays;
+    // Placed meshes of the scene in the whole, and the other way round; the latter kNone: it moves.
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+    std::vector<std::uint32_t> in_whole, in_part;
+  };
+
   void place_carried_lights();
-  BakedScene bake(double wetness, const std::function<void(double)>& progress);
+  void bake(double wetness, const std::function<void(double)>& progress);
+  std::vector<std::uint32_t> lit_pieces() const;
   LampBounce& lamp_bounce();
-  const std::vector<BakedLight>& clear_nodes() const { return live_light ? live_light->light() : baked_nodes_; }
+  const std::vector<BakedLight>& resting_nodes() const { return bake_ ? bake_->nodes() : open_sky_.nodes; }
+  const std::vector<BakedLight>& clear_nodes() const { return live_light ? live_light->light() : resting_nodes(); }
   const std::vector<BakedLight>& nodes() { return fog_light() ? weakened_nodes_ : clear_nodes(); }
 
   // The light of an image: handed to the device. changed: where it differs from what was
@@ -76,12 +99,12 @@ struct LitScene {
   void show_light(const std::vector<BakedLight>& light, const std::vector<LightRange>* changed = nullptr);
 
   std::vector<CarriedLight> carried_lights_;
-  std::vector<BakedLight> baked_nodes_;      // the baked light; empty where something moves
+  std::unique_ptr<RestingPart> resting_;     // what is baked
+  std::unique_ptr<LightBake> bake_;          // of that; null: the sky is open
+  OpenSkyLight open_sky_;                    // instead
   std::vector<BakedLight> weakened_nodes_;   // by the fog
-  FogLight::Radiance radiance_;              // of the bake points, until fog_light_ takes them
   std::unique_ptr<FogLight> fog_light_;      // made when there is first fog
   bool air_changed_ = false, surfaces_changed_ = false;  // since light_air()
-  BakeLinks links_;                          // of the same, until lamp_bounce() takes them
   std::unique_ptr<LampBounce> lamp_bounce_;  // made when a lamp is first lit
   std::uint64_t light_version_ = 1;          // of nodes()
   bool lit_by_lamp_ = false;                 // the light on the device is the lamp's too

@@ -135,6 +135,23 @@ std::vector<LampBounce::Shown> DrawnSurfaces::shown() {
   return out;
 }
 
+std::optional<std::vector<std::uint32_t>> DrawnSurfaces::shown_pieces() {
+  const std::uint32_t* drawn = ids_in_place();
+  if (!drawn) return {};
+  const std::size_t count =
+      2 * std::size_t(view_.intrinsics.width) * std::size_t(view_.intrinsics.height);
+  std::vector<std::uint8_t> shows(drawer_.scene_.scene.placed.size() + 1, 0);
+  const auto mark = [&](const std::uint32_t* two) {
+    for (std::size_t i = 0; i < count; i += 2) shows[two[i]] = 1;
+  };
+  mark(drawn);
+  for (const GlassLayer& layer : behind_) mark(layer.ids.data());
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t i = 1; i < shows.size(); ++i)
+    if (shows[i]) out.push_back(i - 1);
+  return out;
+}
+
 const std::vector<float>& DrawnSurfaces::depth_values() {
   if (!in_pass()) return saved_depth_values_;
   return view_.plain() ? drawer_.raster_.depth_values() : drawer_.rays_->depth_values();

@@ -51,6 +51,8 @@ class DrawnSurfaces {
   const std::vector<float>& depth_behind();
   const std::vector<std::uint32_t>& ids();            // two a pixel, as TriangleRaster::ids()
   std::vector<LampBounce::Shown> shown();              // the triangles in images(), some more than once
+  // The placed meshes in images(), each once, in order; nothing: that is known on the device alone.
+  std::optional<std::vector<std::uint32_t>> shown_pieces();
   const std::vector<float>& depth_values();           // near / Z; as RayPass has them for rays
   const std::vector<float>& planar_depth();           // NaN: nothing; unit: m
   const std::vector<float>& distances();              // along the rays; NaN: nothing; unit: m

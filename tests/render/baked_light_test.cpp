@@ -204,7 +204,8 @@ TEST_P(LowSlit, LightsTheGroundAsItsSkyDoes) {
   BakeOptions options;
   options.threads = 2;
   const auto black = [](const RayScene::Triangle&, float, float) { return Vec3f(); };
-  const BakedScene baked = bake_light(prepared, rays, light, black, options, {});
+  LightBake baked(prepared, rays, light, black, options);
+  baked.light_all();
 
   double expected = 0;
   constexpr int kSteps = 400;
@@ -223,7 +224,7 @@ TEST_P(LowSlit, LightsTheGroundAsItsSkyDoes) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const Vec3f& at = nodes[i].position;
       if (at.x * at.x + at.y * at.y > 0.5f * 0.5f) continue;
-      const UnpackedLight here = unpack_light(baked.nodes[placed.first_light + i], {0, 0, 1});
+      const UnpackedLight here = unpack_light(baked.nodes()[placed.first_light + i], {0, 0, 1});
       found += double(luminance(here.colour)), ++count;
     }
   }

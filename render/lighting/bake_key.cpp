@@ -1,11 +1,11 @@
-// Baked light by way of the disk cache.
+// What a bake follows from.
 #include "render/lighting/bake.h"
 
 namespace rubble {
 
 namespace {
 
-constexpr int kVersion = 12;  // raise it when the same scene bakes to other light
+constexpr int kVersion = 13;  // raise it when the same scene bakes to other light
 
 template <typename T>
 void add_vec(CacheKey& key, const Vec3T<T>& v) {
@@ -46,8 +46,10 @@ void add_light(CacheKey& key, const LightSet& light) {
   for (const Vec3f& v : light.sky.map) add_vec(key, v);
 }
 
-std::string key_of(const PreparedScene& scene, const LightSet& light, const std::string& surfaces,
-                   const BakeOptions& options) {
+}  // namespace
+
+std::string bake_key(const PreparedScene& scene, const LightSet& light, const std::string& surfaces,
+                     const BakeOptions& options) {
   CacheKey key("bake_light", kVersion);
   key.add_text(surfaces);
   key.add(options.rays).add(options.bounces).add(options.seed);
@@ -57,30 +59,6 @@ std::string key_of(const PreparedScene& scene, const LightSet& light, const std:
   if (scene.glass) key.add_text("light passes through glass");
   add_light(key, light);
   return key.hex();
-}
-
-}  // namespace
-
-BakedScene bake_light_once(const DiskCache& cache, const PreparedScene& scene, SceneRays& rays,
-                           const LightSet& light, const AlbedoAt& albedo, const std::string& surfaces, const BakeOptions& options,
-                           const std::function<void(double)>& progress) {
-  if (cache.folder().empty()) return bake_light(scene, rays, light, albedo, options, progress);
-  const std::string key = key_of(scene, light, surfaces, options);
-  if (const auto bytes = cache.find("baked_light", key)) {
-    BakedScene out;
-    CacheReader reader(*bytes);
-    reader.get(out.nodes), reader.get(out.air.origin), reader.get(out.air.cell);
-    reader.get(out.air.size), reader.get(out.air.radiance), reader.get(out.air.direct);
-    reader.get(out.links.seen), reader.get(out.links.albedos), reader.get(out.links.radiance);
-    if (reader.whole() && out.nodes.size() == scene.light_nodes) return out;
-  }
-  const BakedScene out = bake_light(scene, rays, light, albedo, options, progress);
-  CacheWriter writer;
-  writer.put(out.nodes), writer.put(out.air.origin), writer.put(out.air.cell);
-  writer.put(out.air.size), writer.put(out.air.radiance), writer.put(out.air.direct);
-  writer.put(out.links.seen), writer.put(out.links.albedos), writer.put(out.links.radiance);
-  cache.store("baked_light", key, writer.bytes());
-  return out;
 }
 
 }  // namespace rubble

@@ -34,9 +34,11 @@ SettleRun run_settling(const Pile& pile, const SettleJob& job) {
   World world(pile.types, calc_world_options(job.options), pile.assemblies);
   StageClock clock(world);
   EjectionWatch watch(world);
+  LayerCosts layers;
   Times watching;  // is not the kernel's
-  run.state = settle_pile(world, pile, job.options, [&](const SettleProgress&) {
+  run.state = settle_pile(world, pile, job.options, [&](const SettleProgress& progress) {
     const Times before = read_times();
+    layers.note(progress, before - begin - watching, clock.times());
     watch.look();
     watching += read_times() - before;
     return true;
@@ -45,6 +47,7 @@ SettleRun run_settling(const Pile& pile, const SettleJob& job) {
   run.wall = spent.wall;
   run.cpu = spent.cpu;
   run.stages = clock.times();
+  run.layers = layers.layers();
   run.peak_rss = read_peak_rss();
   run.ejected = watch.ejected();
   for (int i = 0; i < world.size(); ++i) run.masses.push_back(world.mass(i));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/ejection_watch.h"
+#include "bench/layer_costs.h"
 #include "bench/overlap_checker.h"
 #include "bench/stage_clock.h"
 #include "kernel/model/pile.h"
@@ -24,6 +25,7 @@ struct SettleRun {
 
   double wall = 0, cpu = 0;  // making the world and settling, without what the bench adds; unit: s
   StageTimes stages{};       // of the settling alone
+  std::vector<LayerCost> layers;
   double peak_rss = 0;       // of the process, when the pile rests; unit: MiB
 
   PileState state;

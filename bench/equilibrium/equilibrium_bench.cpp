@@ -32,6 +32,7 @@ struct Request {
   int threads = 1;
   int jobs = 1;
   bool one = false;  // this process is a job: print one record
+  bool by_layer = false;
   bool pile_only = false;
   bool no_balance = false;
   double tolerance = kContactTolerance;
@@ -43,14 +44,29 @@ struct Item {
   std::uint64_t seed = 0;
 };
 
-Record run_one(const Item& item, const Request& request) {
-  const Work work = load_work(item.work, item.seed, request.overrides);
+SettleJob make_settle_job(const Item& item, const Work& work, const Request& request) {
   SettleJob job;
   job.work = item.work;
   job.options = work.settle;
   job.options.schedule = request.schedule;
   job.options.threads = request.threads;
   job.drift = !request.pile_only;
+  return job;
+}
+
+// What each layer of the pile costs; nobody judges it.
+ExitCode print_layers(const Item& item, const Request& request) {
+  const Work work = load_work(item.work, item.seed, request.overrides);
+  SettleJob job = make_settle_job(item, work, request);
+  job.judge = false;
+  const SettleRun run = run_settling(work.pile, job);
+  std::fputs(layer_csv(run.layers).c_str(), stdout);
+  return run.state.settled ? ExitCode::done : ExitCode::did_not_settle;
+}
+
+Record run_one(const Item& item, const Request& request) {
+  const Work work = load_work(item.work, item.seed, request.overrides);
+  const SettleJob job = make_settle_job(item, work, request);
   const SettleRun run = run_settling(work.pile, job);
   Record record = make_record(work, run);
   add_surface_depth(work.pile, run.state, record);
@@ -150,6 +166,7 @@ ExitCode bench(const Request& request) {
   for (const std::string& work : expand_work_names(request.works))
     for (const std::uint64_t seed : parse_seeds(request.seeds, "--seeds"))
       items.push_back({work, seed});
+  if (request.by_layer) return print_layers(items.front(), request);
   if (!request.one) return run_list(items, request);
   return print(run_one(items.front(), request));
 }
@@ -187,6 +204,9 @@ ExitCode run(int argc, char** argv) {
       ->check(CLI::Range(1e-5, 0.05))
       ->capture_default_str();
   app.add_flag("--markdown", request.markdown, "Tables for a document");
+  app.add_flag("--by-layer", request.by_layer,
+               "Instead print what each layer of the first pile costs: steps, pieces awake, times of the stages, as "
+               "comma-separated lines");
   app.add_flag("--one", request.one, "Print the record of the first pile as JSON");
   try {
     app.parse(argc, argv);

@@ -34,6 +34,7 @@ constexpr NamedWork kWorks[] = {
     {"articulated", "packs", "bench/equilibrium/articulated.lua",
      "5 x 150 of concrete and residential, with hinged slabs"},
     {"terrain", "packs", "scripts/terrain.lua", "a hillside"},
+    {"tall", "large", "bench/equilibrium/tall.lua", "40 x 75 of concrete and residential"},
     {"bars", "odd", "bench/equilibrium/odd/bars.lua", "nothing but reinforcement bars"},
     {"sheets", "odd", "bench/equilibrium/odd/sheets.lua", "nothing but thin sheets"},
     {"bricks", "odd", "bench/equilibrium/odd/bricks.lua", "one kind of brick"},

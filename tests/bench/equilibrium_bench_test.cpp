@@ -95,7 +95,7 @@ TEST(EquilibriumBench, SaysWhatIsWrong) {
 // Each mission of the list is one that the program reads, with a pile that fits its box.
 TEST(EquilibriumBench, EveryMissionOfTheListCanBeGenerated) {
   const Environment assets("RUBBLE_ASSETS", beside_bench("assets"));
-  for (const std::string& name : expand_work_names({"packs", "collapse", "demo"})) {
+  for (const std::string& name : expand_work_names({"packs", "large", "collapse", "demo"})) {
     const Work work = load_work(name, 1);
     EXPECT_GT(work.pile.placed.size() + work.pile.layers.size(), 0U) << name;
   }

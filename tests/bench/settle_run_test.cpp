@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "bench/workload_file.h"
 
 namespace rubble {
@@ -35,6 +37,25 @@ TEST(SettleRun, DoesNotDependOnThreadsButOnOrientations) {
   EXPECT_EQ(run_settling(pile, make_job(2)).state.state_hash(), one);
   turn_pieces(pile, 1);
   EXPECT_NE(run_settling(pile, make_job(1)).state.state_hash(), one);
+}
+
+TEST(SettleRun, AddsUpItsLayers) {
+  SettleJob job = make_job(1);
+  job.judge = false;
+  const SettleRun run = run_settling(load_workload(RUBBLE_WORKLOADS "/w0.txt"), job);
+  ASSERT_GE(run.layers.size(), 2U);
+  EXPECT_EQ(run.layers.front().layer, 1);
+  EXPECT_TRUE(run.layers.back().verifying);
+  EXPECT_EQ(run.layers.back().pieces, 100);
+  long steps = 0;
+  for (const LayerCost& cost : run.layers) {
+    steps += cost.steps;
+    EXPECT_GT(cost.awake, 0);
+    EXPECT_LE(cost.awake, cost.pieces * cost.steps);
+  }
+  EXPECT_EQ(steps, run.state.steps);
+  const std::string csv = layer_csv(run.layers);
+  EXPECT_EQ(std::size_t(std::count(csv.begin(), csv.end(), '\n')), run.layers.size() + 1);
 }
 
 TEST(EjectionWatch, SeesFastPiecesSidewaysAndUpButNotFalling) {

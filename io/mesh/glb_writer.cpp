@@ -142,8 +142,8 @@ class GlbBuilder {
                {"metallicFactor", paint.metalness},
                {"roughnessFactor", paint.roughness}};
     const GlbImages images = make_glb_images(paint);
-    const auto add = [this](Json& to, const char* key, const std::string& png) {
-      if (!png.empty()) to[key] = {{"index", add_image(png)}};
+    const auto add = [this](Json& to, const char* part, const std::string& png) {
+      if (!png.empty()) to[part] = {{"index", add_image(png)}};
     };
     add(rough, "baseColorTexture", images.base_colour);
     add(rough, "metallicRoughnessTexture", images.metallic_roughness);

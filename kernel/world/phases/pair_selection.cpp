@@ -103,7 +103,8 @@ void PairSelection::select_pairs(StepPairs& step) {
 }
 
 std::uint8_t PairSelection::classify(const StepPairs& step, Pair& pair) const {
-  if (!step.has_awake(pair)) return kAsleep;
+  const bool ground = pair.body_b == kGround;
+  if (!step.sweeps[pair.body_a].awake && (ground || !step.sweeps[pair.body_b].awake)) return kAsleep;
   if (is_surface_collider(pair.collider_b)) return kActive;  // dropped by Pairs
   if (!is_near(pair)) return kApart;
   return may_touch(step, pair) ? kActive : kWaiting;

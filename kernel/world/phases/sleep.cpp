@@ -139,12 +139,14 @@ void Sleep::wake_hit(StepPairs& step) {
   }
   if (!any) return;
   step.list_awake(data_.bodies);
-  listed_.assign(data_.pairs.size(), 0);
-  for (std::int32_t index : step.active) listed_[std::size_t(index)] = 1;
+  std::vector<std::uint8_t> listed(data_.pairs.size(), 0);
+  for (std::int32_t index : step.active) listed[index] = 1;
   for (std::size_t i = 0; i < data_.pairs.size(); ++i) {
     const Pair& pair = data_.pairs[i];
-    if (listed_[i] || !pair.live) continue;
-    if (!step.has_awake(pair)) continue;
+    if (listed[i] || !pair.live) continue;
+    const bool awake =
+        data_.bodies[pair.body_a].awake || (pair.body_b != kGround && data_.bodies[pair.body_b].awake);
+    if (!awake) continue;
     step.active.push_back(std::int32_t(i));
     step.is_deep[i] = overlaps_deep(data_.contacts[i]);
   }

@@ -62,7 +62,6 @@ class Sleep {
   Waking& waking_;
   ThreadPool& pool_;
   std::vector<std::uint8_t> overlapping_, slept_, disturbed_;  // by body
-  std::vector<std::uint8_t> listed_;                           // by pair: those of the step, in wake_hit()
   std::vector<Vec3f> lost_support_;                            // by body: of sleepers, to awake neighbours
   std::vector<std::int32_t> unsettled_;                        // sleepers whose lost_support_ is not zero
 };

@@ -4,11 +4,8 @@ namespace rubble {
 
 void StepPairs::list_awake(const std::vector<Body>& bodies) {
   awake.clear();
-  is_awake.assign(bodies.size(), 0);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies[i].awake) continue;
-    awake.push_back(std::int32_t(i));
-    is_awake[i] = 1;
+    if (bodies[i].awake) awake.push_back(std::int32_t(i));
   }
 }
 

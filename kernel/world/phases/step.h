@@ -22,16 +22,12 @@ struct StepMotion {
 // and Solution sorts. They are kept until the next step.
 struct StepPairs {
   std::vector<std::int32_t> awake;         // bodies, ascending
-  std::vector<std::uint8_t> is_awake;      // by body; compact, as it is asked for every pair
   std::vector<StepMotion> sweeps;          // by body
   std::vector<std::int32_t> active;        // pairs with an awake body that may touch
   std::vector<std::uint8_t> is_deep;       // by pair: overlap deeper than sleep allows
   std::vector<std::uint8_t> may_be_stuck;  // by pair: is_stuck(), or was separated by a way out before
 
   void list_awake(const std::vector<Body>& bodies);
-  bool has_awake(const Pair& pair) const {
-    return is_awake[std::size_t(pair.body_a)] != 0 || (pair.body_b != kGround && is_awake[std::size_t(pair.body_b)] != 0);
-  }
   // Parts that are farther apart cannot touch in this step; body_b may be kGround. unit: m
   float calc_margin(int body_a, int body_b, const NarrowSettings& settings) const;
 };

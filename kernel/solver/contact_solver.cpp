@@ -21,6 +21,11 @@ PaddedMotion padded(const Motion& m) {
 Motion unpadded(const PaddedMotion& m) {
   return {{m.linear[0], m.linear[1], m.linear[2]}, {m.angular[0], m.angular[1], m.angular[2]}};
 }
+// Speeds that die away end before they are subnormal numbers; as contact_law::kTinySpeed. unit: m/s, rad/s
+Quad drop_tiny(Quad speed) {
+  const Quad tiny = make_quad(1e-15F);
+  return Quad((QuadMask(speed) & (speed > tiny)) | (QuadMask(speed) & (speed < -tiny)));
+}
 
 }  // namespace
 
@@ -415,7 +420,7 @@ void ContactSolver::solve(const SolverSettings& settings, const std::vector<Body
   cancel_correction_velocity(settings, pool);
   pool.run(int(moving_.size()), kBodyGrain, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      velocities[moving_[i]] = unpadded(speeds_[i]);
+      velocities[moving_[i]] = unpadded({drop_tiny(speeds_[i].linear), drop_tiny(speeds_[i].angular)});
       displacements[moving_[i]] = unpadded(moved_[i]);
     }
   });

@@ -86,10 +86,10 @@ RUBBLE_INLINE P solve_friction(const ContactBatch& batch, const P& limit, Impuls
   for (int t = 0; t < 2; ++t) {
     const FrictionRow& f = batch.slide[t];
     masses[t] = P(f.row.mass, first);
-    wanted[t] = at.slide[t] - masses[t] * sides.speed(f.row, Packet3<P>(f.direction, first));
+    wanted[t] = contact_law::drop_tiny(at.slide[t] - masses[t] * sides.speed(f.row, Packet3<P>(f.direction, first)), masses[t]);
   }
   masses[2] = twist_mass * inverse * inverse;
-  wanted[2] = (at.twist - twist_mass * spin(batch, sides)) * inverse;
+  wanted[2] = contact_law::drop_tiny((at.twist - twist_mass * spin(batch, sides)) * inverse, masses[2]);
   const contact_law::Slip<P> slip = contact_law::find_slip(limit, masses, wanted);
   P turning = one;
   if (any(slip.slide > P{})) {  // else all would be divided by 1
@@ -104,8 +104,8 @@ RUBBLE_INLINE P solve_friction(const ContactBatch& batch, const P& limit, Impuls
     at.slide[t] = next;
   }
   // The torque sees what the force has changed.
-  const P turned = (at.twist - twist_mass * spin(batch, sides)) * turning;
-  const P next = radius * contact_law::clamp_twist(limit, slide2 * (shrink * shrink), turned * inverse);
+  const P turned = contact_law::drop_tiny((at.twist - twist_mass * spin(batch, sides)) * turning * inverse, masses[2]);
+  const P next = radius * contact_law::clamp_twist(limit, slide2 * (shrink * shrink), turned);
   sides.twist(batch, next - at.twist);
   at.twist = next;
   return slip.slide;

@@ -47,6 +47,7 @@ class Sleep {
   void fall_asleep(int body);
   // In verification.cpp:
   void update_verification(const StepPairs& step);
+  int count_widenings() const;
   int mark_restless();
   void spread_disturbance(const StepPairs& step);
   void doze(const StepPairs& step);

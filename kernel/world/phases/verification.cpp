@@ -4,7 +4,8 @@
 // computed: those that have been verified to stay in place, and are some contacts away from what
 // moves, doze. They wake as sleepers do. When nothing moves any more all are woken, and the verification
 // asks again: it succeeds only when all have stayed in place at the same time and awake. If that took so long
-// that rolling resistance was on, it is switched off, and all must stay in place without it.
+// that rolling resistance was on, it is switched off, and all must stay in place without it. What does not come to
+// rest among a few that are awake may do so among more: all are woken from time to time, and then fewer doze.
 #include <algorithm>
 
 #include "kernel/solver/speed_limits.h"
@@ -19,6 +20,11 @@ constexpr double kAllAwakeTime = 0.52;
 constexpr double kDozeInterval = 0.25;  // interval in which pieces that may sleep are searched; unit: s
 // Pieces at most this many contacts away from a moving piece stay awake.
 constexpr int kDisturbedContacts = 3;
+// When patience has ended, and after each such time again, all are woken, and pieces up to `kMoreContacts` contacts
+// farther away stay awake than before. unit: s
+constexpr double kWidenInterval = 2;
+constexpr int kMoreContacts = 3;  // as many as at first; unit: 1
+constexpr int kMostWidenings = 80;  // rings are counted in eight bits
 // No piece sleeps while more than this share of the pieces would have to stay awake; unit: 1.
 constexpr double kMostDisturbed = 0.5;
 // When all stay in place with rolling resistance, they must do so without it. A try is given up after this time: a
@@ -45,8 +51,15 @@ int Sleep::mark_restless() {
   return count;
 }
 
+// How often all have been woken since patience ended.
+int Sleep::count_widenings() const {
+  const double late = double(data_.verification_steps) * settings_.options.step - double(kPatienceEnds);
+  return late < 0 ? 0 : std::min(int(late / kWidenInterval) + 1, kMostWidenings);
+}
+
 void Sleep::spread_disturbance(const StepPairs& step) {
-  for (int ring = 1; ring <= kDisturbedContacts; ++ring) {
+  const int rings = kDisturbedContacts + kMoreContacts * count_widenings();
+  for (int ring = 1; ring <= rings; ++ring) {
     each_solved(data_, step, [&](const Contact& contact) {
       if (contact.body_b == kGround || contact.pressed <= 0) return;
       std::uint8_t &a = disturbed_[contact.body_a], &b = disturbed_[contact.body_b];
@@ -104,11 +117,8 @@ void Sleep::update_verification(const StepPairs& step) {
     if (data_.verification_steps - data_.undamped_since > steps(kUndampedTime)) data_.undamped_since = -1;
     return;
   }
-  // What has not come to rest by now may do so among neighbours that are awake.
-  if (data_.verification_steps > steps(double(kPatienceEnds))) {
-    if (dozing) wake_dozing();
-    return;
-  }
+  const std::int64_t late = data_.verification_steps - steps(double(kPatienceEnds));
+  if (dozing && late >= 0 && late % steps(kWidenInterval) == 0) return wake_dozing();
   const std::int64_t awake = data_.verification_steps - data_.all_awake_since - steps(kAllAwakeTime);
   if (!dozing && awake < 0) return;
   if ((dozing ? data_.verification_steps : awake) % steps(kDozeInterval) == 0) doze(step);

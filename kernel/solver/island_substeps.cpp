@@ -12,53 +12,64 @@ static_assert(is_power_of_two(kIslandKinds[0].substeps) && is_power_of_two(kIsla
 
 }  // namespace
 
-int IslandSubsteps::kind_of_island(std::int32_t body) {
-  const Island& island = islands_.of(body);
-  if (tied_[std::size_t(islands_.lowest_of(body))] != 0) return kHeap;
+int IslandSubsteps::kind_of_island(std::int32_t lowest) const {
+  if (tied_[std::size_t(lowest)] != 0) return kHeap;
+  const Island& island = islands_.with_lowest(lowest);
   const auto fits = [&island](const IslandKind& kind) {
     return island.height >= kind.height && island.contacts <= kind.contacts * island.height;
   };
   return int(std::find_if(std::begin(kIslandKinds), std::end(kIslandKinds), fits) - std::begin(kIslandKinds));
 }
 
-bool IslandSubsteps::split(const std::vector<Body>& bodies, const std::vector<Contact>& contacts, std::size_t ties,
-                           const std::vector<std::int32_t>& order) {
+// What split() asks of contacts and bodies, in one place: these lie far apart.
+void IslandSubsteps::note_ends(const std::vector<Body>& bodies, const std::vector<Contact>& contacts, std::size_t ties,
+                               const std::vector<std::int32_t>& order, ThreadPool& pool) {
   const auto still = std::int32_t(bodies.size());
-  const auto number = [&](std::int32_t body) {
-    return body != kGround && bodies[std::size_t(body)].awake ? body : still;
-  };
+  ends_.resize(order.size());
+  pool.run(int(order.size()), 256, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const std::int32_t index = order[std::size_t(i)];
+      const Contact& c = contacts[std::size_t(index)];
+      Ends& ends = ends_[std::size_t(i)];
+      ends = {still, still, std::size_t(index) >= ties};
+      const auto note = [&](std::int32_t body, std::int32_t& number) {
+        if (body == kGround || !bodies[std::size_t(body)].awake) return;
+        number = body;
+        ends.tied = ends.tied || bodies[std::size_t(body)].tree >= 0;
+      };
+      note(c.body_a, ends.a), note(c.body_b, ends.b);
+    }
+  });
+}
+
+bool IslandSubsteps::split(const std::vector<Body>& bodies, const std::vector<Contact>& contacts, std::size_t ties,
+                           const std::vector<std::int32_t>& order, ThreadPool& pool) {
+  const auto still = std::int32_t(bodies.size());
+  note_ends(bodies, contacts, ties, order, pool);
   islands_.begin(bodies.size());
-  for (const std::int32_t index : order) {
-    const Contact& c = contacts[std::size_t(index)];
-    islands_.add(number(c.body_a), number(c.body_b));
-  }
+  for (const Ends& ends : ends_) islands_.add(ends.a, ends.b);
   islands_.finish();
   tied_.assign(bodies.size() + 1, 0);
-  for (const std::int32_t index : order) {
-    const Contact& c = contacts[std::size_t(index)];
-    for (const std::int32_t body : {number(c.body_a), number(c.body_b)}) {
-      if (body == still || (bodies[std::size_t(body)].tree < 0 && std::size_t(index) < ties)) continue;
-      tied_[std::size_t(islands_.lowest_of(body))] = 1;
-    }
+  for (const Ends& ends : ends_) {
+    if (ends.tied) tied_[std::size_t(islands_.lowest_of(ends.a != still ? ends.a : ends.b))] = 1;
   }
-  kinds_.assign(bodies.size(), std::uint8_t(kHeap));
+  // The lowest number of an island comes first.
+  kinds_.assign(bodies.size() + 1, std::uint8_t(kHeap));
   bool any = false;
   for (std::int32_t body = 0; body < still; ++body) {
-    if (number(body) == still) continue;
-    const int kind = kind_of_island(body);
-    kinds_[std::size_t(body)] = std::uint8_t(kind), any = any || kind != kHeap;
+    const std::int32_t lowest = islands_.lowest_of(body);
+    std::uint8_t& kind = kinds_[std::size_t(body)];
+    kind = lowest < body ? kinds_[std::size_t(lowest)] : std::uint8_t(kind_of_island(body));
+    any = any || kind != kHeap;
   }
   if (!any) {
     kinds_.clear();
     return false;
   }
   for (std::vector<std::int32_t>& group : groups_) group.clear();
-  for (const std::int32_t index : order) {
-    const Contact& c = contacts[std::size_t(index)];
-    // Of two bodies one may stay, which has no island.
-    const int kind = std::min(kind_of(c.body_a), c.body_b == kGround ? kHeap : kind_of(c.body_b));
-    groups_[kind].push_back(index);
-  }
+  // Of two bodies one may stay, which has no island.
+  for (std::size_t i = 0; i < order.size(); ++i)
+    groups_[std::min(kinds_[std::size_t(ends_[i].a)], kinds_[std::size_t(ends_[i].b)])].push_back(order[i]);
   return true;
 }
 

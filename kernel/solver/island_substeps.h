@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/base/parallel.h"
 #include "kernel/collision/body.h"
 #include "kernel/collision/contact.h"
 #include "kernel/solver/islands.h"
@@ -30,17 +31,26 @@ class IslandSubsteps {
   // order: of contacts, bottom up. Islands with links of trees, or with ties, which have numbers from `ties` on, are heaps.
   // Returns whether any is not.
   bool split(const std::vector<Body>& bodies, const std::vector<Contact>& contacts, std::size_t ties,
-             const std::vector<std::int32_t>& order);
+             const std::vector<std::int32_t>& order, ThreadPool& pool);
   // Those of a kind in the last split(), in its order.
   const std::vector<std::int32_t>& contacts(int kind) const { return groups_[kind]; }
   int kind_of(std::int32_t body) const { return kinds_.empty() ? kHeap : kinds_[std::size_t(body)]; }
 
  private:
-  int kind_of_island(std::int32_t body);
+  // Bodies of a contact, numbered as Islands does. tied: it is of a tie or of a link of a tree.
+  struct Ends {
+    std::int32_t a, b;
+    bool tied;
+  };
+
+  void note_ends(const std::vector<Body>& bodies, const std::vector<Contact>& contacts, std::size_t ties,
+                 const std::vector<std::int32_t>& order, ThreadPool& pool);
+  int kind_of_island(std::int32_t lowest) const;
 
   Islands islands_;
+  std::vector<Ends> ends_;           // in order
   std::vector<std::uint8_t> tied_;   // with a link of a tree or a tie; by the lowest body of an island
-  std::vector<std::uint8_t> kinds_;  // by body; none where all are heaps
+  std::vector<std::uint8_t> kinds_;  // by body, and of what stays; none where all are heaps
   std::vector<std::int32_t> groups_[kIslandKindCount + 1];
 };
 

@@ -25,6 +25,7 @@ class Islands {
 
   // After finish(): of a body, and the lowest number of its bodies.
   const Island& of(std::int32_t body) { return islands_[std::size_t(lowest_of(body))]; }
+  const Island& with_lowest(std::int32_t lowest) const { return islands_[std::size_t(lowest)]; }
   std::int32_t lowest_of(std::int32_t body) { return sets_.find(body); }
 
  private:

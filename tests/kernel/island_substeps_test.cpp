@@ -40,7 +40,8 @@ struct Bodies {
   }
   IslandSubsteps split(std::size_t ties = kNoTies) const {
     IslandSubsteps islands;
-    islands.split(bodies, contacts, ties, order);
+    ThreadPool pool(1);
+    islands.split(bodies, contacts, ties, order, pool);
     return islands;
   }
 };

@@ -113,7 +113,7 @@ void ContactSolution::run(StepPairs& step, WorldTrees& trees, Ties& ties, const 
   SolverSettings settings = settings_.solver;
   settings.fading = motions.lateness;
   ties.begin(step, motions.velocities);
-  const bool any = islands_.split(data_.bodies, data_.contacts, data_.pairs.size(), step.active);
+  const bool any = islands_.split(data_.bodies, data_.contacts, data_.pairs.size(), step.active, pool_);
   for (int kind = 0; any && kind < kIslandKindCount; ++kind) solve_finer(kind, settings, motions);
   solver_.solve(settings, data_.bodies, any ? islands_.contacts(IslandSubsteps::kHeap) : step.active, data_.contacts,
                 motions.velocities, motions.displacements, trees.solved(), pool_);

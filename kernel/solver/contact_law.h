@@ -135,6 +135,8 @@ RUBBLE_INLINE Slip<T> find_slip(T limit, const T* masses, const T* sticking) {
   const T zero{}, one(1);
   const auto slides = sticking[0] * sticking[0] + sticking[1] * sticking[1] + sticking[2] * sticking[2] > limit * limit;
   if (!is_any(slides)) return {};
+  // Where nothing presses all slips and nothing turns: the impulse is none.
+  if (!is_any(choose(slides, limit, zero) > zero)) return {choose(slides, one, zero), zero};
   const T most_slip = T(kMostSlip) / larger(T(kLeastMass), larger(masses[0], larger(masses[1], masses[2])));
   T s{}, slide2{}, twist2{};
   for (int i = 0;; ++i) {

@@ -92,7 +92,7 @@ RUBBLE_INLINE P solve_friction(const ContactBatch& batch, const P& limit, Impuls
   wanted[2] = contact_law::drop_tiny((at.twist - twist_mass * spin(batch, sides)) * inverse, masses[2]);
   const contact_law::Slip<P> slip = contact_law::find_slip(limit, masses, wanted);
   P turning = one;
-  if (any(slip.slide > P{})) {  // else all would be divided by 1
+  if (any(slip.twist > P{})) {  // else all would be divided by 1, or ends as nothing
     for (int t = 0; t < 2; ++t) wanted[t] = wanted[t] / (one + slip.slide * masses[t]);
     turning = one / (one + slip.twist * masses[2]);
   }

@@ -53,16 +53,18 @@ TEST(IslandSubsteps, HighIslandsHaveMore) {
   Bodies scene;
   const std::int32_t low = scene.add_column(kStack.height - 1);
   EXPECT_EQ(scene.split().kind_of(low), kHeap);
-  const std::int32_t stack = scene.add_column(kStack.height), column = scene.add_column(kColumn.height);
+  const std::int32_t column = scene.add_column(kColumn.height), stack = scene.add_column(kStack.height);
+  const int wide = kColumn.contacts * kStack.height + 1;
+  for (int contacts = kStack.height; contacts < wide; ++contacts) scene.touch(scene.add(), stack);
   const IslandSubsteps islands = scene.split();
   EXPECT_EQ(islands.kind_of(low), kHeap);
-  EXPECT_EQ(islands.kind_of(stack), 1);
   EXPECT_EQ(islands.kind_of(column), 0);
+  EXPECT_EQ(islands.kind_of(stack), 1);
   EXPECT_EQ(islands.contacts(kHeap).size(), std::size_t(kStack.height) - 1);
-  EXPECT_EQ(islands.contacts(1).size(), std::size_t(kStack.height));
   EXPECT_EQ(islands.contacts(0).size(), std::size_t(kColumn.height));
-  EXPECT_EQ(islands.contacts(0).front(), 2 * kStack.height - 1);
-  EXPECT_TRUE(std::is_sorted(islands.contacts(0).begin(), islands.contacts(0).end()));
+  EXPECT_EQ(islands.contacts(1).size(), std::size_t(wide));
+  EXPECT_EQ(islands.contacts(0).front(), kStack.height - 1);
+  EXPECT_TRUE(std::is_sorted(islands.contacts(1).begin(), islands.contacts(1).end()));
 }
 
 TEST(IslandSubsteps, WideIslandsHaveFewer) {

@@ -110,7 +110,9 @@ TEST(IslandSubsteps, AreJoinedThroughWhatMovesOnly) {
 World make_stack(bool heap) {
   WorldOptions options;
   options.sleeping = false;
-  World world({box_type("plate", 1.2, 0.8, 0.05), box_type("base", 6, 6, 0.1), box_type("cube", 0.1, 0.1, 0.1)}, options);
+  PieceType cube = box_type("cube", 0.1, 0.1, 0.1);
+  cube.density = 100;
+  World world({box_type("plate", 1.2, 0.8, 0.05), box_type("base", 6, 6, 0.1), cube}, options);
   std::vector<NewPiece> pieces{at(1, {0, 0, 0.051})};
   for (int i = 0; i < 14; ++i) pieces.push_back(at(0, {0.01 * (i % 3), 0, 0.127 + 0.051 * i}, turned({0, 0, 1}, 0.4 * i)));
   if (heap) pieces.push_back(at(2, {20, 0, 0.051}));
@@ -135,8 +137,8 @@ TEST(IslandSubsteps, WhatBecomesWiderIsNotShaken) {
   const double before = world.piece(14).world_from_body.translation.z;
   ASSERT_LT(world.diagnostics().kinetic_energy(), 1e-6);
   std::vector<NewPiece> cubes;
-  for (int i = 0; i < 400; ++i) {
-    const double x = -2.85 + 0.3 * (i % 20), y = -2.85 + 0.3 * (i / 20);
+  for (int i = 0; i < 1600; ++i) {
+    const double x = -2.925 + 0.15 * (i % 40), y = -2.925 + 0.15 * (i / 40);
     if (std::abs(x) > 0.9 || std::abs(y) > 0.9) cubes.push_back(at(2, {x, y, 0.1521 + world.piece(0).world_from_body.translation.z - 0.051}));
   }
   ASSERT_GT(int(cubes.size()), kColumn.contacts * 16);

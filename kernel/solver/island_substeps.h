@@ -21,7 +21,7 @@ namespace rubble {
 struct IslandKind {
   int substeps, height, contacts;
 };
-inline constexpr IslandKind kIslandKinds[] = {{8, 7, 70}, {2, 7, 100}};
+inline constexpr IslandKind kIslandKinds[] = {{8, 7, 100}, {2, 7, 150}};
 inline constexpr int kIslandKindCount = sizeof kIslandKinds / sizeof kIslandKinds[0];
 
 class IslandSubsteps {

@@ -137,8 +137,8 @@ TEST(IslandSubsteps, WhatBecomesWiderIsNotShaken) {
   const double before = world.piece(14).world_from_body.translation.z;
   ASSERT_LT(world.diagnostics().kinetic_energy(), 1e-6);
   std::vector<NewPiece> cubes;
-  for (int i = 0; i < 1600; ++i) {
-    const double x = -2.925 + 0.15 * (i % 40), y = -2.925 + 0.15 * (i / 40);
+  for (int i = 0; i < 2116; ++i) {
+    const double x = -2.925 + 0.13 * (i % 46), y = -2.925 + 0.13 * (i / 46);
     if (std::abs(x) > 0.9 || std::abs(y) > 0.9) cubes.push_back(at(2, {x, y, 0.1521 + world.piece(0).world_from_body.translation.z - 0.051}));
   }
   ASSERT_GT(int(cubes.size()), kColumn.contacts * 16);

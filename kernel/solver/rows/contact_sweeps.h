@@ -86,7 +86,8 @@ RUBBLE_INLINE P solve_friction(const ContactBatch& batch, const P& limit, Impuls
   for (int t = 0; t < 2; ++t) {
     const FrictionRow& f = batch.slide[t];
     masses[t] = P(f.row.mass, first);
-    wanted[t] = contact_law::drop_tiny(at.slide[t] - masses[t] * sides.speed(f.row, Packet3<P>(f.direction, first)), masses[t]);
+    const P speed = sides.speed(f.row, Packet3<P>(f.direction, first));
+    wanted[t] = contact_law::drop_tiny(at.slide[t] - masses[t] * speed, masses[t]);
   }
   masses[2] = twist_mass * inverse * inverse;
   wanted[2] = contact_law::drop_tiny((at.twist - twist_mass * spin(batch, sides)) * inverse, masses[2]);

@@ -33,7 +33,7 @@ std::size_t point_count(const PreparedScene& scene) {
 
 // Root mean square of the differences of light at nodes, each as a share of the mean of the two, in percent.
 // Nodes that both bakes leave dark do not count.
-double difference(const std::vector<BakedLight>& a, const std::vector<BakedLight>& b) {
+double difference(const LightTable& a, const LightTable& b) {
   const auto strength = [](const BakedLight& l) {
     const Vec3f v(from_half(l.x), from_half(l.y), from_half(l.z));
     return double(norm(v));
@@ -68,7 +68,7 @@ void bench(const Request& request, const std::string& mission, int threads) {
     return baked.nodes();
   };
   const Times start = read_times();
-  const std::vector<BakedLight> nodes = bake(request.rays);
+  const LightTable nodes = bake(request.rays);
   const Times took = read_times() - start, first = solved - start;
   std::printf("| %s | %zu | %zu | %zu | %.2f | %.2f | %.2f | %.2f |", mission.c_str(), given.instances.size(),
               point_count(scene), scene.light_nodes, first.wall, first.cpu, took.wall, took.cpu);

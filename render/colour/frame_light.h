@@ -32,7 +32,7 @@ struct FrameLight {
   std::uint64_t noise = 0;               // as ViewRays::noise
   bool soft_sun = true;                  // its shadows have a penumbra
   // Light that arrives at the nodes; never null.
-  const std::vector<BakedLight>* nodes = nullptr;
+  const LightTable* nodes = nullptr;
 };
 
 // Colours of the lamp's light; kcd.

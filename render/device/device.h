@@ -42,7 +42,7 @@ class DeviceScene {
   // Pieces and carried lights have moved in the scene and the lights that it was made of.
   virtual void move() = 0;
   // The light of an image, which stays where it is. changed: where it differs from what was given before; null: anywhere.
-  virtual void set_light(const std::vector<BakedLight>& light, const std::vector<LightRange>* changed) = 0;
+  virtual void set_light(const LightTable& light, const std::vector<LightRange>* changed) = 0;
   // What it refers to must outlive it, and this must. light: without what depends on the view.
   virtual std::unique_ptr<ColourPass> make_colour_pass(const FrameLight& light, const GroundMap& ground,
                                                        const std::vector<PatternImage>& patterns, ThreadPool& pool) = 0;
@@ -58,7 +58,7 @@ class Device {
 
   // The scene and the lights must outlive it. light: at all nodes, at first.
   virtual std::unique_ptr<DeviceScene> load(const PreparedScene& scene, const LightSet& lights,
-                                            const std::vector<BakedLight>& light, const DeviceSceneOptions& options) = 0;
+                                            const LightTable& light, const DeviceSceneOptions& options) = 0;
 };
 
 }  // namespace rubble

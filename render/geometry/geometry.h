@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/geometry/prepared_mesh.h"
+#include "render/geometry/untouched_memory.h"
 #include "render/materials/paint_layers.h"
 #include "render/scene/frame.h"
 #include "render/scene/scene.h"
@@ -52,13 +53,16 @@ PreparedScene prepare_scene(const Scene& scene, int threads);
 // What does not move, as a scene of its own, its placed meshes in the same order.
 PreparedScene resting_part(const PreparedScene& scene);
 
-// Light that reaches a node, without the direct part of the main light and the lamp.
+// Light that reaches a node, without the direct part of the main light and the lamp. Zero bytes: none.
 struct BakedLight {
   // Illuminance on a surface of normal n: dot(n, vector), as three half floats; then the share of
   // red and of blue, 0 to 255 for 0 to 1 times the sum of the three colours.
   std::uint16_t x = 0, y = 0, z = 0;
-  std::uint8_t red = 85, blue = 85;  // see above; 85: a third, grey
+  std::uint8_t red = 0, blue = 0;  // see above; 85: a third, grey
 };
+
+// One a light node of a scene. Much of it is never lit, and takes no memory.
+using LightTable = std::vector<BakedLight, UntouchedMemory<BakedLight>>;
 
 // Of consecutive light nodes of a scene.
 struct LightRange {

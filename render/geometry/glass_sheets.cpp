@@ -46,7 +46,7 @@ Vec3f GlassSheets::passed(RayScene::Ray ray) const {
   for (int i = 0; i < kMostFaces; ++i) {
     const RayScene::PreciseHit hit = next(ray);
     if (hit.triangle == RayScene::kNone) break;
-    const float cosine = std::fabs(dot(normal_of(triangles()[hit.triangle]), ray.direction));
+    const float cosine = std::fabs(dot(normal_of(triangle(hit.triangle)), ray.direction));
     const Vec3f passed = scalar::to_vec3(scalar::find_sheet_shares(cosine).passed) * (1 - kMeanHaze);
     share = {share.x * passed.x, share.y * passed.y, share.z * passed.z};
     ray.nearest = just_behind(hit.distance);

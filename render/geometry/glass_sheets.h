@@ -15,9 +15,9 @@ class GlassSheets {
   bool any() const { return any_; }
   void follow();  // as RayScene
 
-  // The first sheet that the ray enters; its triangle is an index into triangles().
+  // The first sheet that the ray enters; its triangle is a number for triangle().
   RayScene::PreciseHit next(RayScene::Ray ray) const;
-  const std::vector<RayScene::Triangle>& triangles() const { return rays_.triangles(); }
+  RayScene::Triangle triangle(std::uint32_t number) const { return rays_.triangle(number); }
   // Share of light that comes straight through all sheets on the ray's way, with their mean haze.
   // Its direction must be of unit length.
   Vec3f passed(RayScene::Ray ray) const;

@@ -185,6 +185,7 @@ PreparedMesh prepare_mesh(const SceneMesh& mesh) {
   if (out.vertices.empty()) throw RunError("a mesh of the scene has no triangles");
   const float coarse = float(mesh.light_spacing);
   make_light_nodes(out, out.levels.front().triangle_count, coarse > 0 ? coarse : kLightSpacing, coarse);
+  out.light_nodes.shrink_to_fit();
   return out;
 }
 

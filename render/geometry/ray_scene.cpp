@@ -1,6 +1,7 @@
 #include "render/geometry/ray_scene.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "render/materials/glass.h"
 
@@ -54,8 +55,25 @@ RayScene::MeshBlocks& RayScene::blocks_of(std::uint32_t number) {
   return blocks;
 }
 
+void RayScene::add_triangles(std::uint32_t placed, const MeshBlocks& blocks) {
+  placed_.push_back({triangle_count_, placed, &blocks});
+  triangle_count_ += std::uint32_t(blocks.sources.size());
+  while (runs_.size() * kRun < triangle_count_) runs_.push_back(std::uint32_t(placed_.size() - 1));
+}
+
+RayScene::Triangle RayScene::triangle(std::uint32_t number) const {
+  std::size_t i = runs_[number / kRun];
+  while (i + 1 < placed_.size() && placed_[i + 1].first <= number) ++i;
+  return {placed_[i].placed, placed_[i].blocks->sources[number - placed_[i].first]};
+}
+
 void RayScene::add_resting() {
+  // A scene has millions of them, so a vector that grows would take twice the memory.
+  std::size_t block_count = 0;
+  for (const PlacedMesh& piece : scene_.placed)
+    if (!piece.moves) block_count += blocks_of(piece.mesh).order.ends.size();
   std::vector<TriangleBlock> blocks;
+  blocks.reserve(block_count);
   std::vector<Vec3f> positions;
   for (std::uint32_t i = 0; i < scene_.placed.size(); ++i) {
     const PlacedMesh& piece = scene_.placed[i];
@@ -72,10 +90,10 @@ void RayScene::add_resting() {
           const auto& v = mesh.triangles[of_mesh.sources[t]].vertices;
           return std::array<Vec3f, 3>{positions[v[0]], positions[v[1]], positions[v[2]]};
         },
-        std::uint32_t(triangles_.size()), blocks);
-    for (const std::uint32_t t : of_mesh.sources) triangles_.push_back({i, t});
+        triangle_count_, blocks);
+    add_triangles(i, of_mesh);
   }
-  tree_.parts().emplace_back().mesh = tree_.add_mesh(blocks);
+  tree_.parts().emplace_back().mesh = tree_.add_mesh(std::move(blocks));
 }
 
 void RayScene::add_moving() {
@@ -100,8 +118,8 @@ void RayScene::add_moving() {
           smallest_scales.at(piece.mesh));
     }
     RayTree::Part& part = tree_.parts().emplace_back();
-    part.first_id = std::uint32_t(triangles_.size());
-    for (const std::uint32_t t : blocks.sources) triangles_.push_back({i, t});
+    part.first_id = triangle_count_;
+    add_triangles(i, blocks);
     movers_.push_back(i);
     place(movers_.size() - 1);
   }

@@ -22,7 +22,7 @@ class RayScene {
     std::uint32_t source;  // its triangle in the prepared mesh
   };
   struct Hit {
-    std::uint32_t triangle = kNone;  // index into triangles()
+    std::uint32_t triangle = kNone;  // for triangle()
     float distance = 0;              // unit: lengths of the ray's direction
     bool back = false;               // from inside
   };
@@ -37,7 +37,7 @@ class RayScene {
     float farthest = 0;  // unit: lengths of `direction`
   };
   struct PreciseHit {
-    std::uint32_t triangle = kNone;  // index into triangles()
+    std::uint32_t triangle = kNone;  // for triangle()
     float distance = 0;              // unit: lengths of the ray's direction
     float u = 0, v = 0;              // weights of the triangle's second and third corner
     bool back = false;               // from inside
@@ -60,7 +60,9 @@ class RayScene {
   // The same for `count` rays at once: hits[i] is that of rays[i], hidden[i] is 1 where it is blocked.
   void cast_many(const Ray* rays, std::size_t count, Order order, PreciseHit* hits) const;
   void blocked_many(const Ray* rays, std::size_t count, Order order, std::uint8_t* hidden) const;
-  const std::vector<Triangle>& triangles() const { return triangles_; }
+  // Of its number; below triangle_count(). Those of a placed mesh follow each other.
+  Triangle triangle(std::uint32_t number) const;
+  std::uint32_t triangle_count() const { return triangle_count_; }
 
  private:
   // Of a mesh, what is cast against.
@@ -69,6 +71,11 @@ class RayScene {
     BlockOrder order;                    // of `sources`
     std::uint32_t in_tree = RayTree::kNone;  // of what moves
   };
+  struct PlacedTriangles {
+    std::uint32_t first, placed;  // number of the first; which placed mesh
+    const MeshBlocks* blocks;
+  };
+  void add_triangles(std::uint32_t placed, const MeshBlocks& blocks);
   const PreparedLevel& level_of(const PreparedMesh& mesh) const;
   bool has(const PreparedTriangle& triangle) const;  // it is of the part
   MeshBlocks& blocks_of(std::uint32_t mesh);
@@ -81,7 +88,11 @@ class RayScene {
   Part part_;
   RayTree tree_;  // what rests is its first part, movers follow
   std::map<std::uint32_t, MeshBlocks> meshes_;
-  std::vector<Triangle> triangles_;
+  // There are millions of triangles: which one a number means is looked up, from where its run of numbers is.
+  static constexpr std::uint32_t kRun = 256;
+  std::vector<PlacedTriangles> placed_;
+  std::vector<std::uint32_t> runs_;  // of each run, which of placed_ has its first number
+  std::uint32_t triangle_count_ = 0;
   std::vector<std::uint32_t> movers_;  // placed meshes
   std::uint64_t moment_ = 0;  // of the scene when it was followed last
 };

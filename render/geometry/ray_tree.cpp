@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
@@ -235,7 +236,7 @@ struct RayTree::Embree {
 
   RTCScene new_scene() const {
     const RTCScene made = rtcNewScene(device);
-    rtcSetSceneFlags(made, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(made, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT));
     return made;
   }
   template <class Element>
@@ -280,10 +281,10 @@ struct RayTree::Embree {
 RayTree::RayTree(double reach) : reach_(std::max(1.0, reach)), embree_(std::make_unique<Embree>()) {}
 RayTree::~RayTree() = default;
 
-std::uint32_t RayTree::add_mesh(const std::vector<TriangleBlock>& blocks) {
+std::uint32_t RayTree::add_mesh(std::vector<TriangleBlock> blocks) {
   if (blocks.empty()) return kNone;
   auto mesh = std::make_unique<Mesh>();
-  mesh->blocks = blocks;
+  mesh->blocks = std::move(blocks);
   for (const TriangleBlock& block : mesh->blocks) {
     const Aabb box = tree_bounds(block);
     mesh->bounds.include(box.min), mesh->bounds.include(box.max);
@@ -297,9 +298,10 @@ std::uint32_t RayTree::add_mesh(const std::vector<TriangleBlock>& blocks) {
 
 std::uint32_t RayTree::add_mesh(const BlockOrder& order, const TriangleCorners& corners, double smallest_scale) {
   std::vector<TriangleBlock> blocks;
+  blocks.reserve(order.ends.size());
   // A ray begins at most kFarAway from the origin, a mesh lies at most once the reach from it.
   append_blocks(order, corners, 0, float((kFarAway + 1) * reach_ / smallest_scale), blocks);
-  return add_mesh(blocks);
+  return add_mesh(std::move(blocks));
 }
 
 void RayTree::drop_mesh(std::uint32_t mesh) { embree_->meshes.erase(mesh); }

@@ -85,8 +85,8 @@ using GlVertexArray = GlObject<VertexArrayKind>;
 using GlProgram = GlObject<ProgramKind>;
 
 // A buffer that holds `data`; an empty vector gives a small buffer, since GL refuses size 0.
-template <typename T>
-GlBuffer make_buffer(const Gl& gl, const std::vector<T>& data, GLenum usage = GL_STATIC_DRAW) {
+template <typename T, typename Memory>
+GlBuffer make_buffer(const Gl& gl, const std::vector<T, Memory>& data, GLenum usage = GL_STATIC_DRAW) {
   GlBuffer buffer(gl);
   const std::size_t size = data.size() * sizeof(T);
   gl.NamedBufferData(buffer.name(), GLsizeiptr(size ? size : 16), size ? data.data() : nullptr,

@@ -88,8 +88,10 @@ const AirLight& LightBake::air() {
     kept = from.whole();
   }
   if (!kept) {
-    const std::vector<Vec3f> radiance = baker_->triangle_radiance();
-    air = bake_air({scene_, light_, rays_.solid(), radiance, options_.threads});
+    const RayScene& rays = rays_.solid();
+    air = bake_air({scene_, light_, rays,
+                    [&](std::uint32_t triangle) { return baker_->triangle_radiance(rays.triangle(triangle)); },
+                    options_.threads});
     CacheWriter to;
     to.put(air.origin), to.put(air.cell), to.put(air.size), to.put(air.radiance), to.put(air.direct);
     cache_.store(kind, key_, to.bytes());

@@ -45,6 +45,11 @@ struct AirLight {
   Vec3f at(const Vec3f* grid, const Vec3f& point) const;
 };
 
+// Where a bake point is, in the world.
+struct BakePlace {
+  Vec3f position, normal;  // unit: m; unit length
+};
+
 // What the bake points see of each other, for light that is found later: a view of a bake, which must outlive it. Points
 // are those of the placed meshes in turn.
 class BakeLinks {
@@ -55,10 +60,11 @@ class BakeLinks {
 
   // hits: `count` of each point, cosine-weighted; stand_ins: of points inside a piece an open one nearby, else kNone.
   BakeLinks(std::size_t count, const std::vector<std::uint32_t>& hits, const std::vector<std::uint32_t>& stand_ins,
-            const std::vector<Vec3f>& of_points)
-      : albedos(of_points), per_point(count), hits_(hits), stand_ins_(stand_ins) {}
+            const std::vector<BakePlace>& of_places, const std::vector<Vec3f>& of_points)
+      : places(of_places), albedos(of_points), per_point(count), hits_(hits), stand_ins_(stand_ins) {}
 
-  const std::vector<Vec3f>& albedos;  // of each point
+  const std::vector<BakePlace>& places;  // of each point
+  const std::vector<Vec3f>& albedos;     // likewise
   const std::size_t per_point;
 
   // That many links, for sender().
@@ -101,7 +107,7 @@ class LightBake {
   bool knows(std::uint32_t piece) const { return known_[piece]; }
   bool knows_all() const { return known_count_ == known_.size(); }
   // One a node of each placed mesh, in the order of first_light; nothing where it is not known yet.
-  const std::vector<BakedLight>& nodes() const { return nodes_; }
+  const LightTable& nodes() const { return nodes_; }
   // Of the same light; found when it is first asked for.
   const AirLight& air();
   BakeLinks links() const;  // valid as long as this
@@ -122,7 +128,7 @@ class LightBake {
   DiskCache cache_;
   std::string key_;
   std::unique_ptr<Baker> baker_;
-  std::vector<BakedLight> nodes_;
+  LightTable nodes_;
   std::vector<std::uint8_t> known_;                       // of each placed mesh
   std::size_t known_count_ = 0, kept_count_ = 0;          // of these; of them in the cache
   std::unique_ptr<AirLight> air_;
@@ -130,7 +136,7 @@ class LightBake {
 
 // Every node and all air as if nothing stood around: the sky alone.
 struct OpenSkyLight {
-  std::vector<BakedLight> nodes;
+  LightTable nodes;
   AirLight air;
 };
 OpenSkyLight open_sky_light(const PreparedScene& scene, const LightSet& light);

@@ -54,7 +54,7 @@ bool AirBaker::air_radiance(const Vec3f& point, Vec3f& mean) const {
     else if (hit.back)
       ++inside;
     else
-      sum += radiosity[hit.triangle];
+      sum += radiosity(hit.triangle);
   }
   if (inside > kRays / 4) return false;
   mean = sum * (1.0f / kRays);

@@ -1,7 +1,8 @@
 // Light scattered in the air of a scene whose surfaces are baked.
 #pragma once
 
-#include <vector>
+#include <cstdint>
+#include <functional>
 
 #include "render/geometry/ray_scene.h"
 #include "render/lighting/bake.h"
@@ -12,7 +13,7 @@ struct AirBakeInput {
   const PreparedScene& scene;           // whose surfaces are baked
   const LightSet& light;                // that was baked
   const RayScene& rays;                 // of that scene
-  const std::vector<Vec3f>& radiosity;  // one a triangle of `rays`, over pi; unit: kcd/m2
+  std::function<Vec3f(std::uint32_t triangle)> radiosity;  // of a triangle of `rays`, over pi; unit: kcd/m2
   int threads = 1;                      // the result does not depend on it
 };
 

@@ -34,19 +34,19 @@ float Baker::reach_of(const Point& p, float light_distance) const {
 std::vector<PointCells::Point> Baker::open_points(std::uint32_t first, std::uint32_t end) const {
   std::vector<PointCells::Point> out;
   for (std::uint32_t i = first; i < end; ++i)
-    if (points_[i].open) out.push_back({points_[i].position, i});
+    if (points_[i].open) out.push_back({places_[i].position, i});
   return out;
 }
 
 // Looks at those after it alone: each line of sight is cast once, for both of its ends.
 void Baker::join_neighbours(std::uint32_t i, const PointCells& grid, Piece& piece, std::vector<RayScene::Ray>& lines) const {
-  const Point& p = points_[i];
+  const BakePlace& p = places_[i];
   const auto reach = [&](std::uint32_t point) { return reach_of(points_[point], piece.of(point).light_distance); };
   const float reach_of_p = reach(i);
   std::vector<std::uint32_t> ends;
   lines.clear();
   grid.near(p.position, int(std::ceil(kWidest / kCell)), [&](std::uint32_t k) {
-    const Point& q = points_[k];
+    const BakePlace& q = places_[k];
     const Vec3f d = q.position - p.position;
     const float away2 = dot(d, d);
     if (k <= i || dot(p.normal, q.normal) < kFacing) return;
@@ -98,7 +98,7 @@ void Baker::smooth(Piece& piece) const {
     arrived = out[i - piece.first];
     if (points_[i].open) continue;
     arrived.indirect = substitutes_[i] != kNone ? out[substitutes_[i] - piece.first].indirect * kContact : Vec3f();
-    arrived.vector = points_[i].normal * luminance(arrived.indirect);
+    arrived.vector = places_[i].normal * luminance(arrived.indirect);
   }
 }
 
@@ -112,9 +112,9 @@ void Baker::find_substitutes() {
     for (std::uint32_t i = first; i < end; ++i) {
       if (points_[i].open) continue;
       float nearest = kSearch;
-      grid.near(points_[i].position, 2, [&](std::uint32_t k) {
-        const float away = distance(points_[k].position, points_[i].position);
-        if (dot(points_[k].normal, points_[i].normal) < 0.7f || away >= nearest) return;
+      grid.near(places_[i].position, 2, [&](std::uint32_t k) {
+        const float away = distance(places_[k].position, places_[i].position);
+        if (dot(places_[k].normal, places_[i].normal) < 0.7f || away >= nearest) return;
         nearest = away, substitutes_[i] = k;
       });
     }

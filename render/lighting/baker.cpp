@@ -67,16 +67,19 @@ Baker::Baker(const PreparedScene& scene, SceneRays& rays, const LightSet& light,
 }
 
 void Baker::list_points() {
+  std::size_t count = 0;
+  for (const PlacedMesh& placed : scene_.placed) count += scene_.meshes[placed.mesh].bake_points.size();
+  points_.reserve(count), places_.reserve(count);
   for (std::size_t piece = 0; piece < scene_.placed.size(); ++piece) {
     const PlacedMesh& placed = scene_.placed[piece];
     const std::vector<BakePoint>& sources = scene_.meshes[placed.mesh].bake_points;
     first_point_.push_back(std::uint32_t(points_.size()));
     for (std::size_t i = 0; i < sources.size(); ++i) {
       Point p;
-      p.position = Vec3f(placed.world_from_mesh * (Vec3(sources[i].position) * placed.scale));
-      p.normal = Vec3f(placed.world_from_mesh.rotation.rotate(Vec3(sources[i].normal)));
       p.piece = std::uint32_t(piece), p.source = std::uint32_t(i);
       points_.push_back(p);
+      places_.push_back({Vec3f(placed.world_from_mesh * (Vec3(sources[i].position) * placed.scale)),
+                         Vec3f(placed.world_from_mesh.rotation.rotate(Vec3(sources[i].normal)))});
     }
   }
   radiance_.resize(points_.size());
@@ -184,7 +187,7 @@ bool Baker::restore(CacheReader& from) {
   return true;
 }
 
-void Baker::light_pieces(const std::vector<std::uint32_t>& pieces, std::vector<BakedLight>& nodes) {
+void Baker::light_pieces(const std::vector<std::uint32_t>& pieces, LightTable& nodes) {
   rays_ = &scene_rays_.solid();
   std::vector<Piece> work;
   for (const std::uint32_t number : pieces) {
@@ -210,7 +213,7 @@ void Baker::light_pieces(const std::vector<std::uint32_t>& pieces, std::vector<B
   });
 }
 
-void Baker::store_nodes(const Piece& piece, std::vector<BakedLight>& nodes) const {
+void Baker::store_nodes(const Piece& piece, LightTable& nodes) const {
   const PlacedMesh& placed = scene_.placed[piece.number];
   const std::vector<LightNode>& of_mesh = scene_.meshes[placed.mesh].light_nodes;
   for (std::size_t i = 0; i < of_mesh.size(); ++i) {
@@ -223,18 +226,12 @@ void Baker::store_nodes(const Piece& piece, std::vector<BakedLight>& nodes) cons
   }
 }
 
-std::vector<Vec3f> Baker::triangle_radiance() {
-  rays_ = &scene_rays_.solid();
-  std::vector<Vec3f> out;
-  out.reserve(rays_->triangles().size());
-  for (const RayScene::Triangle& t : rays_->triangles()) {
-    const std::uint32_t mesh = scene_.placed[t.placed].mesh;
-    Vec3f sum;
-    for (const std::uint32_t v : scene_.meshes[mesh].triangles[t.source].vertices)
-      sum += radiance_[first_point_[t.placed] + nearest_points_[mesh][v]] * (1.0f / 3);
-    out.push_back(sum);
-  }
-  return out;
+Vec3f Baker::triangle_radiance(const RayScene::Triangle& triangle) const {
+  const std::uint32_t mesh = scene_.placed[triangle.placed].mesh;
+  Vec3f sum;
+  for (const std::uint32_t v : scene_.meshes[mesh].triangles[triangle.source].vertices)
+    sum += radiance_[first_point_[triangle.placed] + nearest_points_[mesh][v]] * (1.0f / 3);
+  return sum;
 }
 
 }  // namespace rubble

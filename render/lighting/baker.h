@@ -36,10 +36,10 @@ class Baker {
   bool restore(CacheReader& from);
 
   // Of the solution. nodes: of all placed meshes; those of `pieces`, each once, are found.
-  void light_pieces(const std::vector<std::uint32_t>& pieces, std::vector<BakedLight>& nodes);
-  // One a triangle of the solid rays, over pi; unit: kcd/m2.
-  std::vector<Vec3f> triangle_radiance();
-  BakeLinks links() const { return {first_spokes_.size(), first_hits_, substitutes_, albedos_}; }
+  void light_pieces(const std::vector<std::uint32_t>& pieces, LightTable& nodes);
+  // Of the solution, over pi; unit: kcd/m2. May be called from several threads.
+  Vec3f triangle_radiance(const RayScene::Triangle& triangle) const;
+  BakeLinks links() const { return {first_spokes_.size(), first_hits_, substitutes_, places_, albedos_}; }
   const std::vector<Vec3f>& radiance() const { return radiance_; }  // of each point, matt; unit: kcd/m2
 
  private:
@@ -50,7 +50,6 @@ class Baker {
   static constexpr float kContact = 0.7f;        // light left where pieces touch
 
   struct Point {
-    Vec3f position, normal;  // in the world
     Vec3f direct;            // of the lights; unit: klx
     Vec3f indirect;          // of sky and surfaces, by its first rays; unit: klx
     float clearance = 0;     // harmonic mean of the distances of what it sees; unit: m
@@ -111,6 +110,7 @@ class Baker {
   std::size_t end_point(std::size_t piece) const {
     return piece + 1 < first_point_.size() ? first_point_[piece + 1] : points_.size();
   }
+  const BakePlace& place_of(const Point& p) const { return places_[std::size_t(&p - points_.data())]; }
   void list_points();
   void find_nearest_points();
   void find_albedos(const AlbedoAt& albedo);
@@ -121,7 +121,7 @@ class Baker {
   // What comes along a first ray that meets a surface.
   const Vec3f& radiance_at(std::uint32_t hit) const { return radiance_[hit & ~BakeLinks::kClosed]; }
   void fill_closed();
-  void store_nodes(const Piece& piece, std::vector<BakedLight>& nodes) const;
+  void store_nodes(const Piece& piece, LightTable& nodes) const;
 
   // baker_gather.cpp
   Fan fan(std::size_t point, std::uint32_t round) const;   // round 0: that of the first rays
@@ -161,6 +161,7 @@ class Baker {
   GlassSheets sheets_;    // of glass, which dims light and does nothing else to it
   std::vector<Spoke> first_spokes_, spokes_;        // spread evenly, cosine-weighted
   std::vector<Point> points_;                       // of all placed meshes
+  std::vector<BakePlace> places_;                   // of these points
   std::vector<Vec3f> sky_;                          // mean radiance that first rays meet, of the sky alone, while solving; unit: kcd/m2
   std::vector<std::uint32_t> first_point_;          // of each placed mesh
   std::vector<std::uint32_t> first_hits_;           // of each point in turn, as links: a point, kSky, kInside or kNone

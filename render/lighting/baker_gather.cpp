@@ -52,7 +52,7 @@ Vec3f Baker::Fan::direction(std::size_t k) const {
 
 Baker::Fan Baker::fan(std::size_t point, std::uint32_t round) const {
   const std::uint32_t seed = std::uint32_t(options_.seed);
-  Fan fan{round == 0 ? first_spokes_ : spokes_, {}, {}, points_[point].normal, 0};
+  Fan fan{round == 0 ? first_spokes_ : spokes_, {}, {}, places_[point].normal, 0};
   basis_about(fan.z, lattice_value(int(point), int(round), seed), fan.x, fan.y);
   fan.height = std::min(lattice_value(int(point), int(round), seed + 0x68bc21ebu), 0.999f);
   return fan;
@@ -76,14 +76,14 @@ BakeOrigin Baker::origin(const Point& p, std::size_t i) const {
 bool Baker::below_soil(const Point& p) const {
   if (!scene_.surrounded || scene_.placed[p.piece].id != kGroundId || scene_.bounds.empty()) return false;
   const Vec3 low = scene_.bounds.min, high = scene_.bounds.max;
-  const double x = double(p.position.x), y = double(p.position.y);
+  const double x = double(place_of(p).position.x), y = double(place_of(p).position.y);
   return x < low.x - kBeside || x > high.x + kBeside || y < low.y - kBeside || y > high.y + kBeside;
 }
 
 // The point nearest to one of the nodes about a place, drawn by its weight there, so that the mean over many rays
 // is that of the light between nodes. draw: in [0, 1).
 std::uint32_t Baker::drawn_point(const RayScene::PreciseHit& hit, float draw) const {
-  const RayScene::Triangle& t = rays_->triangles()[hit.triangle];
+  const RayScene::Triangle t = rays_->triangle(hit.triangle);
   const std::uint32_t mesh = scene_.placed[t.placed].mesh;
   const LightNodes nodes = find_light_nodes(scene_.meshes[mesh], t.source, hit.u, hit.v);
   const std::size_t k = draw < nodes.weight[0] ? 0 : draw < nodes.weight[0] + nodes.weight[1] ? 1 : 2;
@@ -283,8 +283,8 @@ Baker::Regions Baker::look_about(Piece& piece) const {
   Regions regions;
   const auto at = [](float x) { return int(std::floor(x / kAbout)); };
   for (std::uint32_t i = piece.first; i < piece.end; ++i) {
-    const Point& p = points_[i];
-    Region& region = regions[{at(p.position.x), at(p.position.y), at(p.position.z), dominant_direction(p.normal)}];
+    const Vec3f& p = places_[i].position;
+    Region& region = regions[{at(p.x), at(p.y), at(p.z), dominant_direction(places_[i].normal)}];
     region.points.push_back(i);
     const Sum& sum = piece.of(i).sum = first_sum(i);
     region.sum.light += sum.light, region.sum.squares += sum.squares, region.sum.rays += sum.rays;
@@ -305,7 +305,7 @@ float Baker::bright_nearness(std::size_t i) const {
   for (std::size_t r = 0; r < first_spokes_.size(); ++r)
     if (codes[r] < kNone)
       sum += luminance(radiance_at(codes[r])) /
-             std::max(distance(points_[codes[r] & ~BakeLinks::kClosed].position, points_[i].position), 0.01f);
+             std::max(distance(places_[codes[r] & ~BakeLinks::kClosed].position, places_[i].position), 0.01f);
   return sum;
 }
 
@@ -322,7 +322,7 @@ void Baker::plan(Piece& piece) {
 void Baker::gather(std::size_t i, Found& found) const {
   Sum& sum = found.sum;
   for (int round = 1; round <= found.rounds; ++round) add_round(i, std::uint32_t(round), sum);
-  const Vec3f& n = points_[i].normal;
+  const Vec3f& n = places_[i].normal;
   const float scale = portable::kPiF / float(std::max(sum.rays, 1));
   found.arrived.indirect = sum.light * scale;
   found.arrived.vector =

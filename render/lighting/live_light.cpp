@@ -42,7 +42,7 @@ struct LiveLight::Hit {
 };
 
 LiveLight::LiveLight(const PreparedScene& scene, const LightSet& light,
-                     std::vector<BakedLight> resting, const AlbedoAt& albedo, int threads)
+                     LightTable resting, const AlbedoAt& albedo, int threads)
     : scene_(scene),
       light_(light),
       threads_(threads),
@@ -157,7 +157,7 @@ LiveLight::Hit LiveLight::trace_ray(const Vec3f& from, const Vec3f& direction) c
   hit.kind = met.triangle == RayScene::kNone ? Hit::sky : met.back ? Hit::inside : Hit::surface;
   if (hit.kind != Hit::sky) hit.distance = met.distance;
   if (hit.kind != Hit::surface) return hit;
-  const RayScene::Triangle& triangle = rays_.triangles()[met.triangle];
+  const RayScene::Triangle triangle = rays_.triangle(met.triangle);
   const PlacedMesh& piece = scene_.placed[triangle.placed];
   const PreparedMesh& mesh = scene_.meshes[piece.mesh];
   const PreparedTriangle& source = mesh.triangles[triangle.source];
@@ -299,7 +299,7 @@ void LiveLight::set_resting(std::uint32_t piece, const BakedLight* light) {
   if (!changed_.empty() && placed.there) light_resting(placed);
 }
 
-const std::vector<BakedLight>& LiveLight::update() {
+const LightTable& LiveLight::update() {
   solve(&without_, now_);
   changed_ = grid_.find_changed_cells(without_.filled, now_.filled);
   out_ = resting_;

@@ -22,14 +22,14 @@ class LiveLight {
  public:
   // scene: without anything that moves there. resting: the light of what rests, by first_light; what
   // it holds for the rest does not count, and what is not known yet is nothing. albedo: as the bake's. Both scene and light must outlive it.
-  LiveLight(const PreparedScene& scene, const LightSet& light, std::vector<BakedLight> resting,
+  LiveLight(const PreparedScene& scene, const LightSet& light, LightTable resting,
             const AlbedoAt& albedo, int threads);
   ~LiveLight();
 
   // Of every node of the scene as it stands now. A function of the scene alone: what was asked
   // before does not count.
-  const std::vector<BakedLight>& update();
-  const std::vector<BakedLight>& light() const { return out_; }  // of the update before
+  const LightTable& update();
+  const LightTable& light() const { return out_; }  // of the update before
   // The light of what rests at all nodes of a placed mesh, which was not known before.
   void set_resting(std::uint32_t piece, const BakedLight* light);
 
@@ -77,7 +77,7 @@ class LiveLight {
   std::vector<Vec3f> directions_;
   std::vector<Vec3f> albedos_;  // mean over all that has a material, by material; unit: 1
   ProbeGrid grid_;
-  std::vector<BakedLight> resting_, out_;
+  LightTable resting_, out_;
   std::vector<RestingNode> nodes_;  // as `resting_`, of what rests
   Solution without_, now_;       // what rests alone; as the scene stands
   std::vector<Sphere> movers_;

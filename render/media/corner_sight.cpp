@@ -22,7 +22,8 @@ CornerSight::CornerSight(const PreparedScene& scene, const RayScene& rays, const
 void CornerSight::note_triangles(const PreparedScene& scene) {
   std::vector<Vec3> corners;
   std::uint32_t of = RayScene::kNone;
-  for (const RayScene::Triangle& triangle : rays_.triangles()) {
+  for (std::uint32_t number = 0; number < rays_.triangle_count(); ++number) {
+    const RayScene::Triangle triangle = rays_.triangle(number);
     const PlacedMesh& placed = scene.placed[triangle.placed];
     const PreparedMesh& mesh = scene.meshes[placed.mesh];
     if (triangle.placed != of) {

@@ -67,7 +67,7 @@ void GlassRays::cast(const RayScene& solid, const ViewRays& view, const Pixel& p
   if (hit.triangle != RayScene::kNone) ray.farthest = hit.distance;
   if (!last) sheet = sheets_.next(ray);
   if (sheet.triangle != RayScene::kNone && sheet.distance - before < kSameSheet &&
-      sheets_.triangles()[sheet.triangle].placed == piece) {
+      sheets_.triangle(sheet.triangle).placed == piece) {
     ray.nearest = just_behind(sheet.distance);
     sheet = sheets_.next(ray);
   }
@@ -79,7 +79,7 @@ void GlassRays::cast(const RayScene& solid, const ViewRays& view, const Pixel& p
     value = GlassLayer::kDark;
     return;
   }
-  const RayScene::Triangle& t = glass ? sheets_.triangles()[hit.triangle] : solid.triangles()[hit.triangle];
+  const RayScene::Triangle t = glass ? sheets_.triangle(hit.triangle) : solid.triangle(hit.triangle);
   id[0] = t.placed + 1;
   id[1] = names_.name(scene_.placed[t.placed].mesh, t.source);
   value = kNearPlane * slope / hit.distance;

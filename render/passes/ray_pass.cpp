@@ -99,7 +99,7 @@ void RayPass::cast_row(const ViewRays& view, int v) {
       hit = scene_rays_->cast(eye, ray, near, kFarthest);
     }
     if (hit.triangle == RayScene::kNone || hit.back) continue;
-    const RayScene::Triangle& triangle = scene_rays_->triangles()[hit.triangle];
+    const RayScene::Triangle triangle = scene_rays_->triangle(hit.triangle);
     const double t = exact_distance(triangle, pose.translation, along, double(hit.distance));
     ids_[i * 2] = triangle.placed + 1;
     ids_[i * 2 + 1] = names_.name(scene_.placed[triangle.placed].mesh, triangle.source);

@@ -222,10 +222,9 @@ bool Wave::reflect(std::uint32_t index, const Met& met) {
   Path& path = paths_[index];
   const RayScene::PreciseHit& hit = met.hit;
   const SamplePair choices = draw(path, kChoices);
-  const auto& triangles = met.sheet ? scene_.sheets->triangles() : scene_.rays.triangles();
+  const RayScene::Triangle triangle = met.sheet ? scene_.sheets->triangle(hit.triangle) : scene_.rays.triangle(hit.triangle);
   SurfacePoint surface;
-  scene_.surfaces.find(
-      {triangles[hit.triangle], hit.u, hit.v, path.direction, path.spread * hit.distance}, surface);
+  scene_.surfaces.find({triangle, hit.u, hit.v, path.direction, path.spread * hit.distance}, surface);
   // Of the second number the path needs whether it goes on, of the first what it does.
   const float chance = (surface.passed.x + surface.passed.y + surface.passed.z) * (1.0f / 3);
   const bool passes = met.sheet && choices.x < chance;
@@ -297,7 +296,7 @@ Vec3f Wave::passed(RayScene::Ray ray) const {
     const RayScene::PreciseHit hit = scene_.sheets->next(ray);
     if (hit.triangle == RayScene::kNone) return share;
     SurfacePoint surface;
-    scene_.surfaces.find({scene_.sheets->triangles()[hit.triangle], hit.u, hit.v, ray.direction,
+    scene_.surfaces.find({scene_.sheets->triangle(hit.triangle), hit.u, hit.v, ray.direction,
                           kRoughSpread * hit.distance},
                          surface);
     share = times(share, surface.passed);

@@ -69,7 +69,7 @@ class LinkMaker {
 
 // The heaviest point of the node that weighs most there.
 std::uint32_t LinkMaker::point_of(const RayScene::PreciseHit& hit) const {
-  const RayScene::Triangle& t = rays_.triangles()[hit.triangle];
+  const RayScene::Triangle t = rays_.triangle(hit.triangle);
   const PreparedMesh& mesh = scene_.meshes[scene_.placed[t.placed].mesh];
   const LightNodes nodes = find_light_nodes(mesh, t.source, hit.u, hit.v);
   const auto heaviest = [](const auto& w) { return std::size_t(std::max_element(w.begin(), w.end()) - w.begin()); };

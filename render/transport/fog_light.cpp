@@ -196,8 +196,8 @@ FogLight::Place FogLight::place_of_mover(const Vec3f& surface, const Vec3f& norm
   return {usual_off(), field_.seen.at(field_.grid, surface + normal * usual_off())};
 }
 
-void FogLight::weaken(const PreparedScene& scene, const std::vector<BakedLight>& clear,
-                      const std::vector<std::uint32_t>& pieces, std::vector<BakedLight>& out) {
+void FogLight::weaken(const PreparedScene& scene, const LightTable& clear,
+                      const std::vector<std::uint32_t>& pieces, LightTable& out) {
   std::vector<std::size_t> first;
   std::size_t count = 0;
   for (const PlacedMesh& placed : scene.placed) {

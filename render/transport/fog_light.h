@@ -22,8 +22,8 @@ class FogLight {
   // Light of the place in this air, without its billows and puffs.
   void set_air(const Air& air);
   // Baked light of those placed meshes in that air. Nodes are those of `scene`, whatever moves there.
-  void weaken(const PreparedScene& scene, const std::vector<BakedLight>& clear, const std::vector<std::uint32_t>& pieces,
-              std::vector<BakedLight>& out);
+  void weaken(const PreparedScene& scene, const LightTable& clear, const std::vector<std::uint32_t>& pieces,
+              LightTable& out);
 
   // Light of the lamp. radiance: of the bake points by it; sees: what it shines on directly.
   void set_lamp(const PlacedLamp& lamp, const Radiance& radiance, const std::function<bool(const Vec3f&)>& sees);

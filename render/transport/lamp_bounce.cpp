@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "kernel/base/portable_math.h"
 #include "kernel/base/quick_math.h"
@@ -31,6 +32,16 @@ Vec3f direction_of(int x, int y) {
   return normalized(d);
 }
 
+// What is lit in neither table takes no memory in the second one, either.
+void copy_changed(const LightTable& from, LightTable& to) {
+  constexpr std::size_t kChunk = 512;  // a page of memory
+  if (to.size() != from.size()) to = LightTable(from.size());
+  for (std::size_t i = 0; i < from.size(); i += kChunk) {
+    const std::size_t count = std::min(kChunk, from.size() - i);
+    if (std::memcmp(&from[i], &to[i], count * sizeof(BakedLight)) != 0) std::copy_n(&from[i], count, &to[i]);
+  }
+}
+
 }  // namespace
 
 LampBounce::LampBounce(const PreparedScene& scene, SceneRays& rays, const BakeLinks& links,
@@ -41,20 +52,11 @@ LampBounce::LampBounce(const PreparedScene& scene, SceneRays& rays, const BakeLi
       pool_(std::max(1, threads)),
       rays_(rays),
       map_(std::size_t(kSide) * kSide) {
-  points_.resize(links_.albedos.size());
-  lit_.resize(points_.size() / 64 + 1);
-  radiance_.resize(points_.size()), once_.resize(points_.size()), arrived_.resize(points_.size());
-  point_shows_.resize(points_.size()), node_shows_.resize(scene.light_nodes);
+  const std::size_t points = links_.places.size();
+  lit_.resize(points / 64 + 1);
+  radiance_.resize(points), once_.resize(points), arrived_.resize(points);
+  point_shows_.resize(points), node_shows_.resize(scene.light_nodes);
   is_seen_.resize(scene.placed.size());
-  for (std::size_t piece = 0; piece < scene.placed.size(); ++piece) {
-    if (first_point_[piece] == kNoPoints) continue;
-    const PlacedMesh& placed = scene.placed[piece];
-    const std::vector<BakePoint>& sources = scene.meshes[placed.mesh].bake_points;
-    for (std::size_t i = 0; i < sources.size(); ++i)
-      points_[first_point_[piece] + i] = {
-          Vec3f(placed.world_from_mesh * (Vec3(sources[i].position) * placed.scale)),
-          Vec3f(placed.world_from_mesh.rotation.rotate(Vec3(sources[i].normal)))};
-  }
 }
 
 void LampBounce::cast_map(const Vec3f& from) {
@@ -116,13 +118,14 @@ void LampBounce::light_points() {
     if (is_seen_[piece]) seen_.push_back(piece);
   }
   for_seen([&](std::size_t i) {
-    const Vec3f way = points_[i].position - lamp_.position;
-    const float facing = -dot(points_[i].normal, way), away2 = dot(way, way);
+    const auto& [position, normal] = links_.places[i];
+    const Vec3f way = position - lamp_.position;
+    const float facing = -dot(normal, way), away2 = dot(way, way);
     if (facing <= 0 || away2 > kReach * kReach || away2 < 1e-6f) return;
     const float away = std::sqrt(away2);
     if (away > distance_towards(way) * (1 + kSlack) + kNear) return;
     const float kept = kept_at(away) * quick::exp(-extinction_ * away) * facing / (away * portable::kPiF);
-    const Vec3f light = multiply(links_.albedos[i], lamp_.illuminance(lamp_.position, points_[i].position)) * kept;
+    const Vec3f light = multiply(links_.albedos[i], lamp_.illuminance(lamp_.position, position)) * kept;
     radiance_[i] = {{light.x, light.y, light.z, 0}};
   });
 }
@@ -168,7 +171,7 @@ void LampBounce::add_shown_to_changed() {
 
 // What the air leaves of light between two points.
 float LampBounce::passes(std::size_t from, std::size_t to) const {
-  return quick::exp(-extinction_ * distance(points_[from].position, points_[to].position));
+  return quick::exp(-extinction_ * distance(links_.places[from].position, links_.places[to].position));
 }
 
 void LampBounce::mark_lit() {
@@ -201,6 +204,7 @@ Vec3f LampBounce::gather_colour(std::size_t point) const {
 // By all rays, and with the direction.
 LampBounce::Arrived LampBounce::gather(std::size_t point) const {
   const std::uint32_t* links = links_.of(point);
+  const BakePlace& here = links_.places[point];
   Arrived out;
   int rays = 0;
   for (std::size_t k = 0; k < links_.per_point; ++k) {
@@ -210,16 +214,16 @@ LampBounce::Arrived LampBounce::gather(std::size_t point) const {
     const float* colour = radiance_[sender].c;
     Vec3f light(colour[0], colour[1], colour[2]);
     if (light.y <= 0) continue;
-    const Vec3f way = points_[sender].position - points_[point].position;
+    const Vec3f way = links_.places[sender].position - here.position;
     const float away = std::max(norm(way), 1e-4f);
     if (extinction_ > 0) light *= quick::exp(-extinction_ * away);
     out.colour += light;
     const Vec3f w = way * (1 / away);
-    out.vector += w * (luminance(light) / std::max(dot(w, points_[point].normal), 0.35f));
+    out.vector += w * (luminance(light) / std::max(dot(w, here.normal), 0.35f));
   }
   const float scale = rays > 0 ? portable::kPiF / float(rays) : 0;
   out.colour *= scale;
-  out.vector = out.vector * scale + points_[point].normal * (luminance(out.colour) - dot(out.vector, points_[point].normal) * scale);
+  out.vector = out.vector * scale + here.normal * (luminance(out.colour) - dot(out.vector, here.normal) * scale);
   return out;
 }
 
@@ -239,7 +243,7 @@ float LampBounce::share_again() const {
 }
 
 void LampBounce::pass_on() {
-  const auto kept = [&](std::size_t i) { return kept_at(distance(points_[i].position, lamp_.position)); };
+  const auto kept = [&](std::size_t i) { return kept_at(distance(links_.places[i].position, lamp_.position)); };
   mark_lit();
   for_seen([&](std::size_t i) { once_[i] = kept(i) > 0 ? gather_colour(i) : Vec3f(); });
   const float scale = 1 / (portable::kPiF * (1 - share_again()));
@@ -257,7 +261,7 @@ void LampBounce::pass_on() {
   });
 }
 
-void LampBounce::add_to_node(const ShownNode& shown, const std::vector<BakedLight>& base, const FogLight* fog) {
+void LampBounce::add_to_node(const ShownNode& shown, const LightTable& base, const FogLight* fog) {
   const PlacedMesh& placed = scene_.placed[shown.placed];
   const LightNode& node = scene_.meshes[placed.mesh].light_nodes[shown.node];
   Vec3f colour, vector;
@@ -277,8 +281,8 @@ void LampBounce::add_to_node(const ShownNode& shown, const std::vector<BakedLigh
 }
 
 // Most of the light is as it was for the picture before: only what that showed is taken back.
-void LampBounce::restore(const std::vector<BakedLight>& base, std::uint64_t version) {
-  if (version != version_) out_ = base;
+void LampBounce::restore(const LightTable& base, std::uint64_t version) {
+  if (version != version_) copy_changed(base, out_);
   version_ = version;
   for (const ShownNode& n : shown_nodes_) {
     const std::size_t at = scene_.placed[n.placed].first_light + n.node;
@@ -286,7 +290,7 @@ void LampBounce::restore(const std::vector<BakedLight>& base, std::uint64_t vers
   }
 }
 
-void LampBounce::change_base(const std::vector<BakedLight>& base, std::uint64_t version,
+void LampBounce::change_base(const LightTable& base, std::uint64_t version,
                              const std::vector<LightRange>& ranges) {
   if (version != version_) return;  // add_to() will take all of it
   for (const LightRange& range : ranges)
@@ -315,7 +319,7 @@ float LampBounce::most_radiance() const {
   return most / (1 - kMostAgain);
 }
 
-const std::vector<BakedLight>& LampBounce::add_to(const std::vector<BakedLight>& base, std::uint64_t version,
+const LightTable& LampBounce::add_to(const LightTable& base, std::uint64_t version,
                                                   const std::vector<Shown>& shown, FogLight* fog) {
   changed_.clear();
   if (version == version_) add_shown_to_changed();

@@ -40,21 +40,21 @@ class LampBounce {
   // `base`, and that light at the nodes of the triangles that show, in any order, some perhaps more than
   // once. fog: gets the lamp's light, and gives back what the air scatters of it; null: the air is clear.
   // version: another number whenever `base` has changed.
-  const std::vector<BakedLight>& add_to(const std::vector<BakedLight>& base, std::uint64_t version,
+  const LightTable& add_to(const LightTable& base, std::uint64_t version,
                                         const std::vector<Shown>& shown, FogLight* fog);
   // `base` of that version has got light in those ranges, where it had none.
-  void change_base(const std::vector<BakedLight>& base, std::uint64_t version, const std::vector<LightRange>& ranges);
+  void change_base(const LightTable& base, std::uint64_t version, const std::vector<LightRange>& ranges);
   // Where that differs from `base`, of the last add_to() or, if it was of the same base, the last two. Of each
   // placed mesh at most one range of each, in order.
   const std::vector<LightRange>& changed() const { return changed_; }
 
  private:
-  struct Point {
-    Vec3f position, normal;
-  };
   struct Arrived {
     Vec3f colour, vector;  // illuminance; dot(n, vector) is its strength on a normal n
   };
+  // Of all points or nodes, of which few are about the lamp and show.
+  template <typename T>
+  using Sparse = std::vector<T, UntouchedMemory<T>>;
   using Light = AirTransfer::Colour;  // the last is 0, so that all are added at once
   struct ShownNode {
     std::uint32_t placed, node;  // of its mesh
@@ -64,7 +64,7 @@ class LampBounce {
   float distance_towards(const Vec3f& direction) const;
   bool may_see(const PlacedMesh& piece) const;
   void light_points();
-  void restore(const std::vector<BakedLight>& base, std::uint64_t version);
+  void restore(const LightTable& base, std::uint64_t version);
   void find_shown(const std::vector<Shown>& shown);
   void add_shown_to_changed();
   void show_node(std::uint32_t placed, std::uint32_t node);
@@ -77,14 +77,13 @@ class LampBounce {
   std::size_t count_points(std::uint32_t piece) const;
   float share_again() const;
   void pass_on();
-  void add_to_node(const ShownNode& shown, const std::vector<BakedLight>& base, const FogLight* fog);
+  void add_to_node(const ShownNode& shown, const LightTable& base, const FogLight* fog);
 
   const PreparedScene& scene_;
   BakeLinks links_;
   std::vector<std::uint32_t> first_point_;
   ThreadPool pool_;
   SceneRays& rays_;
-  std::vector<Point> points_;
   PlacedLamp lamp_;
   float extinction_ = 0;                  // of the air about it; unit: 1/m
   std::uint64_t version_ = 0;             // of the base that out_ is made of; 0: none
@@ -94,11 +93,11 @@ class LampBounce {
   std::vector<std::uint8_t> is_seen_;     // of each placed mesh
   std::vector<ShownNode> shown_nodes_;    // of the seen, each once
   std::vector<std::uint32_t> shown_points_;            // about them, each once
-  std::vector<std::uint8_t> node_shows_, point_shows_; // of each node and point
+  Sparse<std::uint8_t> node_shows_, point_shows_;      // of each node and point
   std::vector<Light> radiance_;           // of each point, matt: of its direct light, then of all
-  std::vector<Vec3f> once_;               // illuminance at each point of the seen by one bounce
-  std::vector<Arrived> arrived_;          // at each point that shows, by all bounces
-  std::vector<BakedLight> out_;
+  Sparse<Vec3f> once_;                    // illuminance at each point of the seen by one bounce
+  Sparse<Arrived> arrived_;               // at each point that shows, by all bounces
+  LightTable out_;
   std::vector<LightRange> changed_;
 };
 

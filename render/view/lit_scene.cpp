@@ -71,7 +71,7 @@ LitScene::LitScene(Device& d, const Scene& s, const RenderOptions& o,
       carried_lights_(s.carried_lights) {
   progress(0.05);
   bake(s.wetness, [&](double f) { progress(0.05 + 0.9 * f); });
-  std::vector<BakedLight> whole;
+  LightTable whole;
   if (moving.any()) {
     whole.resize(scene.light_nodes);
     for (const std::uint32_t piece : lit_pieces()) {
@@ -156,6 +156,7 @@ void LitScene::light_air(std::int64_t stamp_ns) {
   const bool draft = options.colour.quality == RenderQuality::draft;
   if (!draft && !medium.clear() && !fog_light_ && bake_) {
     FogLight::Radiance radiance;
+    radiance.reserve(bake_->radiance().size());
     for (const Vec3f& r : bake_->radiance()) radiance.push_back({{r.x, r.y, r.z, 0}});
     fog_light_ = std::make_unique<FogLight>(resting_->scene, resting_->rays.solid(), air_box(scene.bounds), resting_light,
                                             std::move(radiance), options.threads);
@@ -173,7 +174,7 @@ void LitScene::light_air(std::int64_t stamp_ns) {
   show_light(nodes());
 }
 
-void LitScene::show_light(const std::vector<BakedLight>& shown, const std::vector<LightRange>* changed) {
+void LitScene::show_light(const LightTable& shown, const std::vector<LightRange>* changed) {
   frame_light.nodes = &shown;
   on_device->set_light(shown, changed);
 }

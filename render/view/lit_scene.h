@@ -90,19 +90,19 @@ struct LitScene {
   void bake(double wetness, const std::function<void(double)>& progress);
   std::vector<std::uint32_t> lit_pieces() const;
   LampBounce& lamp_bounce();
-  const std::vector<BakedLight>& resting_nodes() const { return bake_ ? bake_->nodes() : open_sky_.nodes; }
-  const std::vector<BakedLight>& clear_nodes() const { return live_light ? live_light->light() : resting_nodes(); }
-  const std::vector<BakedLight>& nodes() { return fog_light() ? weakened_nodes_ : clear_nodes(); }
+  const LightTable& resting_nodes() const { return bake_ ? bake_->nodes() : open_sky_.nodes; }
+  const LightTable& clear_nodes() const { return live_light ? live_light->light() : resting_nodes(); }
+  const LightTable& nodes() { return fog_light() ? weakened_nodes_ : clear_nodes(); }
 
   // The light of an image: handed to the device. changed: where it differs from what was
   // shown before; null: anywhere.
-  void show_light(const std::vector<BakedLight>& light, const std::vector<LightRange>* changed = nullptr);
+  void show_light(const LightTable& light, const std::vector<LightRange>* changed = nullptr);
 
   std::vector<CarriedLight> carried_lights_;
   std::unique_ptr<RestingPart> resting_;     // what is baked
   std::unique_ptr<LightBake> bake_;          // of that; null: the sky is open
   OpenSkyLight open_sky_;                    // instead
-  std::vector<BakedLight> weakened_nodes_;   // by the fog
+  LightTable weakened_nodes_;   // by the fog
   std::unique_ptr<FogLight> fog_light_;      // made when there is first fog
   bool air_changed_ = false, surfaces_changed_ = false;  // since light_air()
   std::unique_ptr<LampBounce> lamp_bounce_;  // made when a lamp is first lit

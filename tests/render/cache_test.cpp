@@ -151,7 +151,7 @@ TEST(LightBake, FindsEachPieceApartAsAllAtOnce) {
     EXPECT_EQ(apart.light_pieces({piece, piece}), std::vector<std::uint32_t>{piece});
   }
   EXPECT_TRUE(apart.knows_all());
-  const auto bytes = [](const std::vector<BakedLight>& nodes) {
+  const auto bytes = [](const LightTable& nodes) {
     return std::string(reinterpret_cast<const char*>(nodes.data()),
                        nodes.size() * sizeof(BakedLight));
   };

@@ -10,7 +10,7 @@ namespace {
 
 class GlScene : public DeviceScene {
  public:
-  GlScene(GlContext& context, const PreparedScene& scene, const LightSet& lights, const std::vector<BakedLight>& light,
+  GlScene(GlContext& context, const PreparedScene& scene, const LightSet& lights, const LightTable& light,
           const DeviceSceneOptions& options)
       : context_(context),
         scene_(scene),
@@ -27,7 +27,7 @@ class GlScene : public DeviceScene {
     geometry_.place(scene_);
     if (shadows_) shadows_->move();
   }
-  void set_light(const std::vector<BakedLight>& light, const std::vector<LightRange>* changed) override {
+  void set_light(const LightTable& light, const std::vector<LightRange>* changed) override {
     geometry_.set_light(light, changed);
   }
   std::unique_ptr<ColourPass> make_colour_pass(const FrameLight& light, const GroundMap& ground,
@@ -57,7 +57,7 @@ GlDevice::GlDevice(const GlContextOptions& options) : context_(options) {
 }
 
 std::unique_ptr<DeviceScene> GlDevice::load(const PreparedScene& scene, const LightSet& lights,
-                                            const std::vector<BakedLight>& light, const DeviceSceneOptions& options) {
+                                            const LightTable& light, const DeviceSceneOptions& options) {
   return std::make_unique<GlScene>(context_, scene, lights, light, options);
 }
 

@@ -27,7 +27,7 @@ GlTexture upload_paint_images(const Gl& gl, const PaintLayers& paints) {
 
 }  // namespace
 
-GlGeometry::GlGeometry(const Gl& of, const PreparedScene& scene, SceneTables made, const std::vector<BakedLight>& at)
+GlGeometry::GlGeometry(const Gl& of, const PreparedScene& scene, SceneTables made, const LightTable& at)
     : gl(of), tables(std::move(made)) {
   static_assert(sizeof(BakedLight) == 8, "shaders read it as two 32-bit words");
   vertices = make_buffer(gl, tables.vertices);
@@ -62,7 +62,7 @@ void GlGeometry::place(const PreparedScene& scene) {
   check_gl(gl, "moving the pieces");
 }
 
-void GlGeometry::set_light(const std::vector<BakedLight>& from, const std::vector<LightRange>* changed) const {
+void GlGeometry::set_light(const LightTable& from, const std::vector<LightRange>* changed) const {
   if (!changed)
     gl.NamedBufferData(light.name(), GLsizeiptr(from.size() * sizeof(BakedLight)), from.data(), GL_STREAM_DRAW);
   else

@@ -11,11 +11,11 @@ namespace rubble {
 
 struct GlGeometry {
   // light: at all nodes, at first.
-  GlGeometry(const Gl& gl, const PreparedScene& scene, SceneTables tables, const std::vector<BakedLight>& light);
+  GlGeometry(const Gl& gl, const PreparedScene& scene, SceneTables tables, const LightTable& light);
 
   void place(const PreparedScene& scene);  // where the pieces are now
   // changed: null: all of it.
-  void set_light(const std::vector<BakedLight>& light, const std::vector<LightRange>* changed) const;
+  void set_light(const LightTable& light, const std::vector<LightRange>* changed) const;
   // In `indices`; triangle: number in the mesh.
   std::uint32_t first_index(std::uint32_t mesh, std::uint32_t triangle) const {
     return 3 * (tables.names.first_triangle[mesh] + triangle);

@@ -33,7 +33,7 @@ class SoftwareScene : public DeviceScene {
     if (shadows_) shadows_->move();
   }
   // It is read where it lies, by FrameLight::nodes.
-  void set_light(const std::vector<BakedLight>&, const std::vector<LightRange>*) override {}
+  void set_light(const LightTable&, const std::vector<LightRange>*) override {}
   std::unique_ptr<ColourPass> make_colour_pass(const FrameLight& light, const GroundMap& ground,
                                                const std::vector<PatternImage>& patterns, ThreadPool& pool) override {
     return make_software_colour_pass(scene_, tables_, *shadows_, light, ground, patterns, shader_, pool);
@@ -57,7 +57,7 @@ SoftwareDevice::SoftwareDevice() {
 }
 
 std::unique_ptr<DeviceScene> SoftwareDevice::load(const PreparedScene& scene, const LightSet& lights,
-                                                  const std::vector<BakedLight>&, const DeviceSceneOptions& options) {
+                                                  const LightTable&, const DeviceSceneOptions& options) {
   return std::make_unique<SoftwareScene>(scene, lights, options);
 }
 

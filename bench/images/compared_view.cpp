@@ -35,8 +35,9 @@ Picture develop_fast(const LinearFrame& frame, const Vec3f& gains, float exposur
   std::vector<float> depth_values;
   for (const float depth : frame.depth) depth_values.push_back(depth > 0 ? kNearPlane / depth : 0);
   Picture out{frame.width, frame.height, {}};
+  ThreadPool pool(threads);
   smooth_edges(develop_image(frame.rgb, frame.width, frame.height, gains, exposure), depth_values, frame.width,
-               frame.height, threads, out.rgb);
+               frame.height, pool, out.rgb);
   return out;
 }
 

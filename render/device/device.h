@@ -24,7 +24,6 @@ struct DeviceInfo {
 };
 
 struct DeviceSceneOptions {
-  int threads = 1;
   int shadow_side = 4096;       // of a shadow map at most; unit: texel
   bool shades = true;           // false: colours are not asked for
   std::string instruction_set;  // as RenderOptions
@@ -45,7 +44,7 @@ class DeviceScene {
   virtual void set_light(const LightTable& light, const std::vector<LightRange>* changed) = 0;
   // What it refers to must outlive it, and this must. light: without what depends on the view.
   virtual std::unique_ptr<ColourPass> make_colour_pass(const FrameLight& light, const GroundMap& ground,
-                                                       const std::vector<PatternImage>& patterns, ThreadPool& pool) = 0;
+                                                       const std::vector<PatternImage>& patterns) = 0;
 };
 
 class Device {
@@ -56,9 +55,11 @@ class Device {
   // One thread at a time may use a device and what it made; this moves it to the calling one.
   virtual void make_current() {}
 
-  // The scene and the lights must outlive it. light: at all nodes, at first.
+  // The scene, the lights and the pool must outlive it. light: at all nodes, at first. pool: the one for all work on the
+  // scene, whose threads would else wait for each other's processors.
   virtual std::unique_ptr<DeviceScene> load(const PreparedScene& scene, const LightSet& lights,
-                                            const LightTable& light, const DeviceSceneOptions& options) = 0;
+                                            const LightTable& light, const DeviceSceneOptions& options,
+                                            ThreadPool& pool) = 0;
 };
 
 }  // namespace rubble

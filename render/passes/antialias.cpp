@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "kernel/base/parallel.h"
 
 namespace rubble {
 
@@ -13,7 +12,7 @@ namespace {
 constexpr int kFarthestEnd = 10;      // how far a stair is followed; unit: pixel
 constexpr int kLeastContrast = 12;    // of luma, 0 to 255
 constexpr float kDepthEdge = 0.006f;  // bend of depth, as a share of it
-constexpr int kRowsAJob = 32;
+constexpr int kRowsAJob = 8;
 
 class Smoother {
  public:
@@ -100,12 +99,11 @@ class Smoother {
 }  // namespace
 
 void smooth_edges(const std::vector<std::uint8_t>& rgba, const std::vector<float>& depth_values,
-                  int width, int height, int threads, std::vector<std::uint8_t>& rgb) {
+                  int width, int height, ThreadPool& pool, std::vector<std::uint8_t>& rgb) {
   rgb.resize(std::size_t(width) * std::size_t(height) * 3);
   const Smoother smoother(rgba.data(), depth_values.data(), width, height, rgb.data());
-  parallel_for(std::size_t((height + kRowsAJob - 1) / kRowsAJob), threads, [&](std::size_t job) {
-    const int first = int(job) * kRowsAJob;
-    for (int y = first; y < std::min(first + kRowsAJob, height); ++y) smoother.row(y);
+  pool.run(height, kRowsAJob, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) smoother.row(y);
   });
 }
 

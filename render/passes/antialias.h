@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernel/base/parallel.h"
+
 namespace rubble {
 
 // rgba: 4 bytes a pixel; depth_values: near / Z of the same pixels; rgb: gets 3 bytes a pixel.
 void smooth_edges(const std::vector<std::uint8_t>& rgba, const std::vector<float>& depth_values,
-                  int width, int height, int threads, std::vector<std::uint8_t>& rgb);
+                  int width, int height, ThreadPool& pool, std::vector<std::uint8_t>& rgb);
 
 }  // namespace rubble

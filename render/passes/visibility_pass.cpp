@@ -13,11 +13,12 @@ constexpr std::size_t kJobPieces = 32;
 
 }  // namespace
 
-VisibilityPass::VisibilityPass(const PreparedScene& scene, TriangleRaster& raster, const VisibilityOptions& options)
+VisibilityPass::VisibilityPass(const PreparedScene& scene, TriangleRaster& raster, const VisibilityOptions& options,
+                               ThreadPool& pool)
     : scene_(scene),
       options_(options),
       raster_(raster),
-      pool_(std::max(1, options.threads)),
+      pool_(pool),
       shown_(scene.cluster_flags, 0),
       drawn_(scene.cluster_flags, 0) {}
 

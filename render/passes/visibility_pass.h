@@ -18,13 +18,12 @@ struct VisibilityOptions {
   // Use coarser levels where a level-0 triangle would be about this small on the image; 0: always
   // the finest. unit: pixel
   double coarse_below = 0;
-  int threads = 1;
 };
 
 class VisibilityPass {
  public:
   // What they refer to must outlive it.
-  VisibilityPass(const PreparedScene& scene, TriangleRaster& raster, const VisibilityOptions& options);
+  VisibilityPass(const PreparedScene& scene, TriangleRaster& raster, const VisibilityOptions& options, ThreadPool& pool);
 
   // Leaves the view in the raster.
   void draw(const ViewProjection& view);
@@ -56,7 +55,7 @@ class VisibilityPass {
   VisibilityOptions options_;
   TriangleRaster& raster_;
   std::vector<Candidate> candidates_;
-  ThreadPool pool_;
+  ThreadPool& pool_;
   std::vector<Chosen> chosen_;  // one a job
   std::vector<ClusterRun> runs_;
   std::size_t run_triangles_ = 0;    // of runs_

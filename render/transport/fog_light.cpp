@@ -35,12 +35,12 @@ float passes_to(const Air& air, const Aabb& box, const LightModel& light, const 
 }  // namespace
 
 FogLight::FogLight(const PreparedScene& scene, const RayScene& rays, const Aabb& box, const LightSet& light,
-                   Radiance radiance, int threads)
+                   Radiance radiance, ThreadPool& pool)
     : box_(box),
       light_(light),
       radiance_(std::move(radiance)),
-      pool_(std::max(1, threads)),
-      transfer_(make_air_links(scene, rays, box, threads)) {
+      pool_(pool),
+      transfer_(make_air_links(scene, rays, box, pool.threads())) {
   const AirGrid& grid = transfer_.links().grid;
   for (const Vec3f& d : transfer_.links().directions) sky_.push_back(d.z > 0 ? light_.sky.radiance(d) : Vec3f());
   find_lit(rays);

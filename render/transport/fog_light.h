@@ -15,9 +15,9 @@ class FogLight {
   using Radiance = std::vector<AirTransfer::Colour>;  // of each bake point, matt; unit: kcd/m2
 
   // scene: what rests; rays: of what light does not pass through there, for the constructor only; light: of the scene;
-  // radiance: of its bake points by that light in clear air.
+  // radiance: of its bake points by that light in clear air. The pool must outlive it.
   FogLight(const PreparedScene& scene, const RayScene& rays, const Aabb& box, const LightSet& light, Radiance radiance,
-           int threads);
+           ThreadPool& pool);
 
   // Light of the place in this air, without its billows and puffs.
   void set_air(const Air& air);
@@ -58,7 +58,7 @@ class FogLight {
   Aabb box_;
   LightSet light_;
   Radiance radiance_;
-  ThreadPool pool_;
+  ThreadPool& pool_;
   AirTransfer transfer_;
   Air air_;
   AirMatter matter_;

@@ -45,11 +45,11 @@ void copy_changed(const LightTable& from, LightTable& to) {
 }  // namespace
 
 LampBounce::LampBounce(const PreparedScene& scene, SceneRays& rays, const BakeLinks& links,
-                       std::vector<std::uint32_t> first_point, int threads)
+                       std::vector<std::uint32_t> first_point, ThreadPool& pool)
     : scene_(scene),
       links_(links),
       first_point_(std::move(first_point)),
-      pool_(std::max(1, threads)),
+      pool_(pool),
       rays_(rays),
       map_(std::size_t(kSide) * kSide) {
   const std::size_t points = links_.places.size();
@@ -230,15 +230,24 @@ LampBounce::Arrived LampBounce::gather(std::size_t point) const {
 // The share of light that was thrown back once which comes back again: the mean over all light, in order,
 // so that the number of threads does not matter.
 float LampBounce::share_again() const {
-  double before = 0, after = 0;
-  for (const std::uint32_t piece : seen_) {
-    const std::size_t first = first_point_[piece];
-    for (std::size_t i = first; i < first + count_points(piece); ++i) {
-      const float* direct = radiance_[i].c;
-      before += double(luminance(Vec3f(direct[0], direct[1], direct[2])));
-      after += double(luminance(multiply(links_.albedos[i], once_[i]))) / portable::kPi;
+  struct Sums {
+    double before = 0, after = 0;
+  };
+  std::vector<Sums> of_pieces(seen_.size());
+  pool_.run(int(seen_.size()), 16, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      Sums& sums = of_pieces[std::size_t(k)];
+      const std::size_t first = first_point_[seen_[std::size_t(k)]], count = count_points(seen_[std::size_t(k)]);
+      for (std::size_t i = first; i < first + count; ++i) {
+        const float* direct = radiance_[i].c;
+        sums.before += double(luminance(Vec3f(direct[0], direct[1], direct[2])));
+        sums.after += double(luminance(multiply(links_.albedos[i], once_[i])));
+      }
     }
-  }
+  });
+  double before = 0, after = 0;
+  for (const Sums& sums : of_pieces) before += sums.before, after += sums.after;
+  after /= portable::kPi;
   return before > 0 ? std::min(float(after / before), kMostAgain) : 0;
 }
 

@@ -21,11 +21,11 @@ namespace rubble {
 
 class LampBounce {
  public:
-  // The scene and the bake of the links must outlive it. links: of what rests there; what moves gets nothing.
+  // The scene, the bake of the links and the pool must outlive it. links: of what rests there; what moves gets nothing.
   // first_point: of each placed mesh in turn, in the links; kNoPoints: it is not among them.
   static constexpr std::uint32_t kNoPoints = 0xffffffffu;
   LampBounce(const PreparedScene& scene, SceneRays& rays, const BakeLinks& links, std::vector<std::uint32_t> first_point,
-             int threads);
+             ThreadPool& pool);
 
   struct Shown {
     std::uint32_t placed;    // which placed mesh
@@ -82,7 +82,7 @@ class LampBounce {
   const PreparedScene& scene_;
   BakeLinks links_;
   std::vector<std::uint32_t> first_point_;
-  ThreadPool pool_;
+  ThreadPool& pool_;
   SceneRays& rays_;
   PlacedLamp lamp_;
   float extinction_ = 0;                  // of the air about it; unit: 1/m

@@ -48,7 +48,7 @@ std::vector<float> with_neighbours(const std::vector<float>& table) {
 
 // For each ray of the air's table, how far away what lies between it and its neighbours is; empty:
 // not known.
-std::vector<float> farthest_in_air(const ViewRays& view, const std::vector<float>& depth_values) {
+std::vector<float> farthest_in_air(const ViewRays& view, const std::vector<float>& depth_values, ThreadPool& pool) {
   constexpr int kColumns = AirVolume::kColumns, kRows = AirVolume::kRows;
   const Intrinsics& k = view.intrinsics;
   if (!view.plain() || k.width < kColumns || k.height < kRows) return {};
@@ -57,8 +57,7 @@ std::vector<float> farthest_in_air(const ViewRays& view, const std::vector<float
                y = std::max(k.cy + 0.5, k.height - k.cy) / k.fy;
   const float longest = kNearPlane * float(std::sqrt(1 + x * x + y * y));
   std::vector<float> out(std::size_t(kColumns) * kRows, 0.0f);
-  for (int v = 0; v < k.height; ++v) {
-    const int row = v * kRows / k.height;
+  const auto look = [&](int v, int row) {
     for (int column = 0, u = 0; column < kColumns; ++column) {
       const float* at = &depth_values[std::size_t(v) * std::size_t(k.width)];
       float least = 1;
@@ -67,7 +66,11 @@ std::vector<float> farthest_in_air(const ViewRays& view, const std::vector<float
       float& far = out[std::size_t(row) * kColumns + std::size_t(column)];
       far = std::max(far, least > 0 ? longest / least : float(AirVolume::kFarthest));
     }
-  }
+  };
+  pool.run(kRows, 2, [&](int begin, int end) {
+    for (int row = begin, v = (begin * k.height + kRows - 1) / kRows; row < end; ++row)
+      for (; v < k.height && v * kRows / k.height == row; ++v) look(v, row);
+  });
   return with_neighbours(out);
 }
 
@@ -78,7 +81,7 @@ ViewProjection projection_of(const ViewRays& view) {
 }  // namespace
 
 ColourDrawer::ColourDrawer(LitScene& scene)
-    : scene_(scene), pool_(std::max(1, scene.options.threads)) {
+    : scene_(scene) {
   restart();
   if (scene.is_traced())
     reference_ = std::make_unique<ReferencePass>(
@@ -89,7 +92,7 @@ ColourDrawer::ColourDrawer(LitScene& scene)
 
 void ColourDrawer::restart() {
   if (!scene_.is_traced())
-    resolve_ = scene_.on_device->make_colour_pass(scene_.frame_light, scene_.ground_map, scene_.patterns, pool_);
+    resolve_ = scene_.on_device->make_colour_pass(scene_.frame_light, scene_.ground_map, scene_.patterns);
 }
 
 FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surfaces,
@@ -104,8 +107,8 @@ FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surface
   const LitAir lit{scene_.air_light(), scene_.resting_light, fog ? &fog->field() : nullptr,
                    air_box(scene_.scene.bounds)};
   air_volume_.build(view, air, lit, &glow, drops_drawn,
-                    farthest_in_air(view, surfaces.depth_behind()),
-                    find_wide_shader(scene_.options.instruction_set), pool_);
+                    farthest_in_air(view, surfaces.depth_behind(), scene_.pool),
+                    find_wide_shader(scene_.options.instruction_set), scene_.pool);
   light.air_table = &air_volume_;
   const double turned = air.turned_share(air.fog_asymmetry());
   light.fog = {air.fog({}) * turned, air.fog_height(),
@@ -189,8 +192,7 @@ ColourImage ColourDrawer::draw(const ViewRays& view, DrawnSurfaces& surfaces,
   const Stopwatch finish;
   const Intrinsics& k = view.intrinsics;
   if (scene_.options.antialias && !reference_)
-    smooth_edges(rgba, surfaces.depth_values(), k.width, k.height, scene_.options.threads,
-                 image.rgb);
+    smooth_edges(rgba, surfaces.depth_values(), k.width, k.height, scene_.pool, image.rgb);
   else
     image.rgb = three_of(rgba, 4);
   image.finish = finish.time();

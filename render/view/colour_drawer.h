@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "kernel/base/parallel.h"
 #include "render/media/air_volume.h"
 #include "render/colour/colour_pass.h"
 #include "render/reference/reference_pass.h"
@@ -49,7 +48,6 @@ class ColourDrawer {
   float expose(const MeteredImage& metered) const;
 
   LitScene& scene_;
-  ThreadPool pool_;
   AirVolume air_volume_;
   std::unique_ptr<ColourPass> resolve_;        // none: colours are path traced
   std::unique_ptr<ReferencePass> reference_;  // none: colours are the resolve pass's

@@ -58,6 +58,7 @@ LitScene::LitScene(Device& d, const Scene& s, const RenderOptions& o,
                    const std::function<void(double)>& progress)
     : device(d),
       options(o),
+      pool(std::max(1, o.threads)),
       scene(prepare_scene(s, o.threads)),
       rays(scene),
       ground_map(make_ground_map(scene)),
@@ -81,7 +82,7 @@ LitScene::LitScene(Device& d, const Scene& s, const RenderOptions& o,
     }
   }
   on_device = device.load(scene, light, moving.any() ? whole : resting_nodes(),
-                          {o.threads, o.shadow_size, !is_traced(), o.instruction_set});
+                          {o.shadow_size, !is_traced(), o.instruction_set}, pool);
   if (moving.any()) {
     const LookSurfaces surfaces(scene, patterns, ground_map, s.wetness);
     live_light = std::make_unique<LiveLight>(scene, resting_light, std::move(whole), drawn_albedo(surfaces), o.threads);
@@ -159,7 +160,7 @@ void LitScene::light_air(std::int64_t stamp_ns) {
     radiance.reserve(bake_->radiance().size());
     for (const Vec3f& r : bake_->radiance()) radiance.push_back({{r.x, r.y, r.z, 0}});
     fog_light_ = std::make_unique<FogLight>(resting_->scene, resting_->rays.solid(), air_box(scene.bounds), resting_light,
-                                            std::move(radiance), options.threads);
+                                            std::move(radiance), pool);
   }
   if (FogLight* fog = fog_light()) {
     if (air_changed_) fog->set_air(air_at(stamp_ns));
@@ -197,7 +198,7 @@ LampBounce& LitScene::lamp_bounce() {
     first_point.push_back(piece.moves ? LampBounce::kNoPoints : next);
     if (!piece.moves) next += std::uint32_t(scene.meshes[piece.mesh].bake_points.size());
   }
-  lamp_bounce_ = std::make_unique<LampBounce>(scene, rays, bake_->links(), std::move(first_point), options.threads);
+  lamp_bounce_ = std::make_unique<LampBounce>(scene, rays, bake_->links(), std::move(first_point), pool);
   return *lamp_bounce_;
 }
 

@@ -30,6 +30,7 @@ struct LitScene {
 
   Device& device;                         // must be current in every call
   RenderOptions options;                  // as given
+  ThreadPool pool;                        // for all work on it: several pools would wait for each other's processors
   PreparedScene scene;                    // as it stands at the moment of the last move_to()
   SceneRays rays;                         // of that scene
   GroundMap ground_map;                   // of debris on the ground

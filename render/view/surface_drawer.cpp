@@ -8,11 +8,16 @@ namespace rubble {
 
 namespace {
 
-std::vector<float> metric_depth(const std::vector<float>& values) {
+constexpr int kPixelsAJob = 1 << 14;
+constexpr int kRowsAJob = 16;
+
+std::vector<float> metric_depth(const std::vector<float>& values, ThreadPool& pool) {
   std::vector<float> out(values.size());
   const float none = std::numeric_limits<float>::quiet_NaN();
-  for (std::size_t i = 0; i < values.size(); ++i)
-    out[i] = values[i] > 0 ? kNearPlane / values[i] : none;
+  pool.run(int(values.size()), kPixelsAJob, [&](int begin, int end) {
+    for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i)
+      out[i] = values[i] > 0 ? kNearPlane / values[i] : none;
+  });
   return out;
 }
 
@@ -26,13 +31,21 @@ std::vector<float> distances_of(const std::vector<float>& depth, const Intrinsic
   return out;
 }
 
-// two: numbers a pixel, as TriangleRaster::ids(); count: of all numbers.
-void add_shown(const std::uint32_t* two, std::size_t count, const std::vector<std::uint32_t>& triangle_of_name,
-               std::vector<LampBounce::Shown>& out) {
-  for (std::size_t i = 0; i < count; i += 2) {
-    const bool again = i > 0 && two[i] == two[i - 2] && two[i + 1] == two[i - 1];
-    if (two[i] && !again) out.push_back({two[i] - 1, triangle_of_name[two[i + 1]]});
-  }
+// two: numbers a pixel, as TriangleRaster::ids(). Most pixels show what the one before or above shows.
+void add_shown(const std::uint32_t* two, const Intrinsics& k, const std::vector<std::uint32_t>& triangle_of_name,
+               ThreadPool& pool, std::vector<LampBounce::Shown>& out) {
+  const std::size_t width = 2 * std::size_t(k.width);
+  std::vector<std::vector<LampBounce::Shown>> parts(std::size_t((k.height + kRowsAJob - 1) / kRowsAJob));
+  pool.run(k.height, kRowsAJob, [&](int begin, int end) {
+    std::vector<LampBounce::Shown>& part = parts[std::size_t(begin / kRowsAJob)];
+    for (std::size_t first = std::size_t(begin) * width; first < std::size_t(end) * width; first += width)
+      for (std::size_t i = first; i < first + width; i += 2) {
+        const auto same = [&](std::size_t other) { return two[i] == two[other] && two[i + 1] == two[other + 1]; };
+        if (!two[i] || (i > first && same(i - 2)) || (first > std::size_t(begin) * width && same(i - width))) continue;
+        part.push_back({two[i] - 1, triangle_of_name[two[i + 1]]});
+      }
+  });
+  for (const auto& part : parts) out.insert(out.end(), part.begin(), part.end());
 }
 
 }  // namespace
@@ -41,7 +54,7 @@ SurfaceDrawer::SurfaceDrawer(LitScene& scene)
     : scene_(scene),
       raster_(scene.on_device->raster()),
       visibility_(scene.scene, raster_,
-                  VisibilityOptions{scene.options.occlusion_culling, scene.options.coarse_below, scene.options.threads}) {}
+                  VisibilityOptions{scene.options.occlusion_culling, scene.options.coarse_below}, scene.pool) {}
 
 DrawnSurfaces::DrawnSurfaces(SurfaceDrawer& drawer, const ViewRays& view)
     : drawer_(drawer), view_(view) {
@@ -126,12 +139,11 @@ const std::vector<std::uint32_t>& DrawnSurfaces::ids() {
 std::vector<LampBounce::Shown> DrawnSurfaces::shown() {
   const std::uint32_t* drawn = ids_in_place();
   const std::uint32_t* two = drawn ? drawn : ids().data();
-  const std::size_t count =
-      2 * std::size_t(view_.intrinsics.width) * std::size_t(view_.intrinsics.height);
+  const std::vector<std::uint32_t>& triangles = drawer_.scene_.on_device->names().triangle_of_name;
   std::vector<LampBounce::Shown> out;
-  add_shown(two, count, drawer_.scene_.on_device->names().triangle_of_name, out);
+  add_shown(two, view_.intrinsics, triangles, drawer_.scene_.pool, out);
   for (const GlassLayer& layer : behind_)
-    add_shown(layer.ids.data(), count, drawer_.scene_.on_device->names().triangle_of_name, out);
+    add_shown(layer.ids.data(), view_.intrinsics, triangles, drawer_.scene_.pool, out);
   return out;
 }
 
@@ -159,7 +171,7 @@ const std::vector<float>& DrawnSurfaces::depth_values() {
 
 const std::vector<float>& DrawnSurfaces::planar_depth() {
   if (planar_depth_.empty())
-    planar_depth_ = view_.plain() ? metric_depth(depth_values()) : drawer_.rays_->planar_depth();
+    planar_depth_ = view_.plain() ? metric_depth(depth_values(), drawer_.scene_.pool) : drawer_.rays_->planar_depth();
   return planar_depth_;
 }
 

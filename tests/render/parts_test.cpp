@@ -264,16 +264,18 @@ struct Slope {
 TEST(SmoothEdges, BringsStairsNearTheExactCover) {
   const Slope slope(true);
   std::vector<std::uint8_t> rgb, rgb2;
-  smooth_edges(slope.rgba, slope.depth, Slope::kSize, Slope::kSize, 1, rgb);
+  ThreadPool one(1), two(2);
+  smooth_edges(slope.rgba, slope.depth, Slope::kSize, Slope::kSize, one, rgb);
   EXPECT_LT(slope.error(rgb, 3), 0.6 * slope.error(slope.rgba, 4));
-  smooth_edges(slope.rgba, slope.depth, Slope::kSize, Slope::kSize, 2, rgb2);
+  smooth_edges(slope.rgba, slope.depth, Slope::kSize, Slope::kSize, two, rgb2);
   EXPECT_EQ(rgb, rgb2);
 }
 
 TEST(SmoothEdges, LeavesTexturesAlone) {
   const Slope slope(false);  // the same picture on a plane of one depth
   std::vector<std::uint8_t> rgb;
-  smooth_edges(slope.rgba, slope.depth, Slope::kSize, Slope::kSize, 1, rgb);
+  ThreadPool one(1);
+  smooth_edges(slope.rgba, slope.depth, Slope::kSize, Slope::kSize, one, rgb);
   EXPECT_EQ(slope.error(rgb, 3), slope.error(slope.rgba, 4));
 }
 

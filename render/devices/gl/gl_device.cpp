@@ -11,9 +11,10 @@ namespace {
 class GlScene : public DeviceScene {
  public:
   GlScene(GlContext& context, const PreparedScene& scene, const LightSet& lights, const LightTable& light,
-          const DeviceSceneOptions& options)
+          const DeviceSceneOptions& options, ThreadPool& pool)
       : context_(context),
         scene_(scene),
+        pool_(pool),
         geometry_(context.gl(), scene, make_scene_tables(scene), light),
         raster_(context.gl(), scene, geometry_) {
     if (options.shades)
@@ -31,13 +32,14 @@ class GlScene : public DeviceScene {
     geometry_.set_light(light, changed);
   }
   std::unique_ptr<ColourPass> make_colour_pass(const FrameLight& light, const GroundMap& ground,
-                                               const std::vector<PatternImage>& patterns, ThreadPool& pool) override {
-    return std::make_unique<GlColourPass>(context_.gl(), geometry_, raster_, *shadows_, light, ground, patterns, pool);
+                                               const std::vector<PatternImage>& patterns) override {
+    return std::make_unique<GlColourPass>(context_.gl(), geometry_, raster_, *shadows_, light, ground, patterns, pool_);
   }
 
  private:
   GlContext& context_;
   const PreparedScene& scene_;
+  ThreadPool& pool_;
   GlGeometry geometry_;
   GlRaster raster_;
   std::unique_ptr<GlShadowPass> shadows_;  // null: colours are not asked for
@@ -57,8 +59,9 @@ GlDevice::GlDevice(const GlContextOptions& options) : context_(options) {
 }
 
 std::unique_ptr<DeviceScene> GlDevice::load(const PreparedScene& scene, const LightSet& lights,
-                                            const LightTable& light, const DeviceSceneOptions& options) {
-  return std::make_unique<GlScene>(context_, scene, lights, light, options);
+                                            const LightTable& light, const DeviceSceneOptions& options,
+                                            ThreadPool& pool) {
+  return std::make_unique<GlScene>(context_, scene, lights, light, options, pool);
 }
 
 }  // namespace rubble

@@ -14,7 +14,7 @@ class GlDevice : public Device {
   const DeviceInfo& info() const override { return info_; }
   void make_current() override { context_.make_current(); }
   std::unique_ptr<DeviceScene> load(const PreparedScene& scene, const LightSet& lights,
-                                    const LightTable& light, const DeviceSceneOptions& options) override;
+                                    const LightTable& light, const DeviceSceneOptions& options, ThreadPool& pool) override;
 
  private:
   GlContext context_;

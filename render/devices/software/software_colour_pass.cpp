@@ -105,8 +105,7 @@ class SoftwareColourPass : public ColourPass {
                const SurfaceImages& surfaces, const FrameLight& light, float exposure,
                Purpose purpose, const GlassLayer* layer = nullptr) {
     const ViewLamp lamp = find_view_lamp(view, world_from_camera, light);
-    const float nearest =
-        *std::max_element(surfaces.depth_values.begin(), surfaces.depth_values.end());
+    const float nearest = largest_of(surfaces.depth_values);
     const bool all_light = purpose == Purpose::linear || purpose == Purpose::meter;
     data_.lamp =
         has_lamp(light) && (all_light || lamp_shows(light, lamp.offset, nearest, exposure));
@@ -172,6 +171,18 @@ class SoftwareColourPass : public ColourPass {
       out.tiles[i] = &pyramids[i].tiles().front().nearest;
     out.tiles_across = pyramids.front().side(), out.texels_a_tile = EdgeView::kTile;
     out.sun_radius = kSunRadius;
+  }
+
+  float largest_of(const std::vector<float>& values) {
+    constexpr std::size_t kPart = 1 << 15;
+    std::vector<float> parts((values.size() + kPart - 1) / kPart);
+    pool_.run(int(parts.size()), 1, [&](int begin, int end) {
+      for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i) {
+        const auto first = values.begin() + std::ptrdiff_t(i * kPart);
+        parts[i] = *std::max_element(first, first + std::ptrdiff_t(std::min(kPart, values.size() - i * kPart)));
+      }
+    });
+    return *std::max_element(parts.begin(), parts.end());
   }
 
   void shade(const ShadedPixels& pixels) {

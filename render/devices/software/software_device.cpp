@@ -1,7 +1,5 @@
 #include "render/devices/software/software_device.h"
 
-#include <algorithm>
-
 #include "render/devices/software/shadow_map.h"
 #include "render/devices/software/software_colour_pass.h"
 #include "render/devices/software/software_raster.h"
@@ -12,10 +10,10 @@ namespace {
 
 class SoftwareScene : public DeviceScene {
  public:
-  SoftwareScene(const PreparedScene& scene, const LightSet& lights, const DeviceSceneOptions& options)
+  SoftwareScene(const PreparedScene& scene, const LightSet& lights, const DeviceSceneOptions& options, ThreadPool& pool)
       : scene_(scene),
         shader_(find_wide_shader(options.instruction_set)),
-        pool_(std::max(1, options.threads)),
+        pool_(pool),
         tables_(make_scene_tables(scene)),
         shapes_(scene.meshes.size()),
         raster_(scene, shapes_, tables_.names, pool_) {
@@ -35,14 +33,14 @@ class SoftwareScene : public DeviceScene {
   // It is read where it lies, by FrameLight::nodes.
   void set_light(const LightTable&, const std::vector<LightRange>*) override {}
   std::unique_ptr<ColourPass> make_colour_pass(const FrameLight& light, const GroundMap& ground,
-                                               const std::vector<PatternImage>& patterns, ThreadPool& pool) override {
-    return make_software_colour_pass(scene_, tables_, *shadows_, light, ground, patterns, shader_, pool);
+                                               const std::vector<PatternImage>& patterns) override {
+    return make_software_colour_pass(scene_, tables_, *shadows_, light, ground, patterns, shader_, pool_);
   }
 
  private:
   const PreparedScene& scene_;
   const WideShader& shader_;
-  ThreadPool pool_;
+  ThreadPool& pool_;
   SceneTables tables_;
   std::vector<ClusterShapes> shapes_;  // one a mesh
   SoftwareRaster raster_;
@@ -57,8 +55,9 @@ SoftwareDevice::SoftwareDevice() {
 }
 
 std::unique_ptr<DeviceScene> SoftwareDevice::load(const PreparedScene& scene, const LightSet& lights,
-                                                  const LightTable&, const DeviceSceneOptions& options) {
-  return std::make_unique<SoftwareScene>(scene, lights, options);
+                                                  const LightTable&, const DeviceSceneOptions& options,
+                                                  ThreadPool& pool) {
+  return std::make_unique<SoftwareScene>(scene, lights, options, pool);
 }
 
 }  // namespace rubble

@@ -11,7 +11,7 @@ class SoftwareDevice : public Device {
 
   const DeviceInfo& info() const override { return info_; }
   std::unique_ptr<DeviceScene> load(const PreparedScene& scene, const LightSet& lights,
-                                    const LightTable& light, const DeviceSceneOptions& options) override;
+                                    const LightTable& light, const DeviceSceneOptions& options, ThreadPool& pool) override;
 
  private:
   DeviceInfo info_;

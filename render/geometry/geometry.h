@@ -62,7 +62,7 @@ struct BakedLight {
 };
 
 // One a light node of a scene. Much of it is never lit, and takes no memory.
-using LightTable = std::vector<BakedLight, UntouchedMemory<BakedLight>>;
+using LightTable = UntouchedTable<BakedLight>;
 
 // Of consecutive light nodes of a scene.
 struct LightRange {

@@ -236,7 +236,7 @@ struct RayTree::Embree {
 
   RTCScene new_scene() const {
     const RTCScene made = rtcNewScene(device);
-    rtcSetSceneFlags(made, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT));
+    rtcSetSceneFlags(made, RTC_SCENE_FLAG_ROBUST);
     return made;
   }
   template <class Element>

@@ -6,6 +6,7 @@
 #include <new>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace rubble {
 
@@ -38,5 +39,8 @@ struct UntouchedMemory {
   friend bool operator==(const UntouchedMemory&, const UntouchedMemory&) { return true; }
   friend bool operator!=(const UntouchedMemory&, const UntouchedMemory&) { return false; }
 };
+
+template <typename T>
+using UntouchedTable = std::vector<T, UntouchedMemory<T>>;
 
 }  // namespace rubble

@@ -52,9 +52,6 @@ class LampBounce {
   struct Arrived {
     Vec3f colour, vector;  // illuminance; dot(n, vector) is its strength on a normal n
   };
-  // Of all points or nodes, of which few are about the lamp and show.
-  template <typename T>
-  using Sparse = std::vector<T, UntouchedMemory<T>>;
   using Light = AirTransfer::Colour;  // the last is 0, so that all are added at once
   struct ShownNode {
     std::uint32_t placed, node;  // of its mesh
@@ -93,10 +90,10 @@ class LampBounce {
   std::vector<std::uint8_t> is_seen_;     // of each placed mesh
   std::vector<ShownNode> shown_nodes_;    // of the seen, each once
   std::vector<std::uint32_t> shown_points_;            // about them, each once
-  Sparse<std::uint8_t> node_shows_, point_shows_;      // of each node and point
+  UntouchedTable<std::uint8_t> node_shows_, point_shows_;  // of each node and point, of which few are about the lamp
   std::vector<Light> radiance_;           // of each point, matt: of its direct light, then of all
-  Sparse<Vec3f> once_;                    // illuminance at each point of the seen by one bounce
-  Sparse<Arrived> arrived_;               // at each point that shows, by all bounces
+  UntouchedTable<Vec3f> once_;            // illuminance at each point of the seen by one bounce
+  UntouchedTable<Arrived> arrived_;       // at each point that shows, by all bounces
   LightTable out_;
   std::vector<LightRange> changed_;
 };

@@ -182,6 +182,7 @@ nb::list voids(const Pile& pile, double radius, double voxel) {
   options.rolling_radius = outside_radius_for(options.rolling_radius, radius);
   options.scenery = pile.settled->mission.assets.terrain();
   options.threads = pile.threads;
+  options.margin = 0;
   VoidMap map;
   {
     const nb::gil_scoped_release free;

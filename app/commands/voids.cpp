@@ -76,9 +76,8 @@ VoidMap make_map(const FolderRequest& request, const VoidRequest& voids, Progres
       return !stop_requested();
     };
   };
-  VoidSpace space = calc_void_space(pile, meshes, options, report("clearance", 0, 0.6));
-  space = crop_to_pile(std::move(space), kShownAround);
-  return find_voids(std::move(space), voids.space.radii, report("voids", 0.6, 0.4));
+  options.margin = kShownAround;
+  return find_voids(calc_void_space(pile, meshes, options, report("clearance", 0, 0.6)), voids.space.radii, report("voids", 0.6, 0.4));
 }
 
 // Through the deepest place of the largest void, both ways.

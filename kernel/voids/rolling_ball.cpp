@@ -11,39 +11,11 @@ namespace {
 
 constexpr int kNone = -1;
 
-// What the ball covers is found layer by layer from the bottom up. In a layer each cell has its
-// nearest place of the ball's centre in this layer; the ball there covers a chord of the cell's
-// column. So nothing is kept of the space but a few layers.
-class RollingBall {
+// Where the ball's centre may be.
+class Roller {
  public:
-  RollingBall(VoidSpace& space, bool ground, ThreadPool& pool)
-      : space_(space),
-        ground_(ground),
-        pool_(pool),
-        row_(std::size_t(space.grid.size[0])),
-        layer_(row_ * std::size_t(space.grid.size[1])),
-        // One voxel is added to the radius, because the centres of cells stand off the surface that
-        // the ball touches by up to that.
-        reach_(space.rolling_radius / space.grid.voxel + 1) {}
+  Roller(VoidSpace& space, bool ground) : space_(space), ground_(ground) {}
 
-  void sweep() {
-    roll();
-    const int batch = 2 * std::max(1, pool_.threads());
-    std::vector<std::vector<int>> chords{std::size_t(batch), std::vector<int>(layer_)};
-    covered_until_.assign(layer_, kNone);
-    run_begin_.assign(layer_, 0);
-    for (int first = 0; first < space_.grid.size[2]; first += batch) {
-      const int count = std::min(batch, space_.grid.size[2] - first);
-      pool_.run(count, 1, [&](int begin, int end) {
-        for (int k = begin; k < end; ++k) find_chords(first + k, chords[std::size_t(k)]);
-      });
-      pool_.run(space_.grid.size[1], 16, [&](int begin, int end) {
-        for (int k = 0; k < count; ++k) cover(first + k, chords[std::size_t(k)], begin, end);
-      });
-    }
-  }
-
- private:
   // Where the ball's centre may be, reached from the border of the grid, is marked as outside; runs
   // of cells along X at a time, since most of the grid is such runs.
   void roll() {
@@ -66,6 +38,7 @@ class RollingBall {
       }
   }
 
+ private:
   bool is_open(std::size_t i) const {
     return space_.kind[i] == CellKind::free_void &&
            space_.clearance[i] >= float(space_.rolling_radius);
@@ -93,6 +66,42 @@ class RollingBall {
     }
   }
 
+  VoidSpace& space_;
+  const bool ground_;
+};
+
+// What the ball covers is found layer by layer from the bottom up. In a layer each cell has its
+// nearest place of the ball's centre in this layer; the ball there covers a chord of the cell's
+// column. So nothing is kept of the space but a few layers.
+// space: after roll_ball().
+class RollingBall {
+ public:
+  RollingBall(VoidSpace& space, ThreadPool& pool)
+      : space_(space),
+        pool_(pool),
+        row_(std::size_t(space.grid.size[0])),
+        layer_(row_ * std::size_t(space.grid.size[1])),
+        // One voxel is added to the radius, because the centres of cells stand off the surface that
+        // the ball touches by up to that.
+        reach_(space.rolling_radius / space.grid.voxel + 1) {}
+
+  void sweep() {
+    const int batch = 2 * std::max(1, pool_.threads());
+    std::vector<std::vector<int>> chords{std::size_t(batch), std::vector<int>(layer_)};
+    covered_until_.assign(layer_, kNone);
+    run_begin_.assign(layer_, 0);
+    for (int first = 0; first < space_.grid.size[2]; first += batch) {
+      const int count = std::min(batch, space_.grid.size[2] - first);
+      pool_.run(count, 1, [&](int begin, int end) {
+        for (int k = begin; k < end; ++k) find_chords(first + k, chords[std::size_t(k)]);
+      });
+      pool_.run(space_.grid.size[1], 16, [&](int begin, int end) {
+        for (int k = 0; k < count; ++k) cover(first + k, chords[std::size_t(k)], begin, end);
+      });
+    }
+  }
+
+ private:
   // chords: for each cell of the layer how far above and below it the ball around its nearest place
   // in this layer covers its column; kNone: there is no place within reach. Unit: cells. The marks
   // of this layer are those of roll() still.
@@ -163,7 +172,6 @@ class RollingBall {
   }
 
   VoidSpace& space_;
-  const bool ground_;
   ThreadPool& pool_;
   const std::size_t row_, layer_;  // cells
   const double reach_;             // of the ball; unit: cells
@@ -174,8 +182,11 @@ class RollingBall {
 
 }  // namespace
 
+void roll_ball(VoidSpace& space, bool ground) { Roller(space, ground).roll(); }
+
 void sweep_outside(VoidSpace& space, bool ground, ThreadPool& pool) {
-  RollingBall(space, ground, pool).sweep();
+  roll_ball(space, ground);
+  RollingBall(space, pool).sweep();
 }
 
 }  // namespace rubble

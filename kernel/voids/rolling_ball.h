@@ -11,4 +11,7 @@ namespace rubble {
 // lie on the ground, from where no ball comes.
 void sweep_outside(VoidSpace& space, bool ground, ThreadPool& pool);
 
+// The first step of it: marks as outside the places that the ball's centre can reach.
+void roll_ball(VoidSpace& space, bool ground);
+
 }  // namespace rubble

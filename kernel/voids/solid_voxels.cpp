@@ -65,9 +65,9 @@ class Columns {
   }
 
   // Marks the cells around which the surface is wound.
-  void mark(std::vector<std::uint8_t>& solid) const {
+  void mark(std::vector<CellKind>& kind) const {
     for (int y = 0; y < depth_; ++y) {
-      for (int x = 0; x < width_; ++x) mark_column(x, y, solid);
+      for (int x = 0; x < width_; ++x) mark_column(x, y, kind);
     }
   }
 
@@ -92,7 +92,7 @@ class Columns {
     turns_[at(x - range_.first[0], y - range_.first[1], above)] += up ? -1 : 1;
   }
 
-  void mark_column(int x, int y, std::vector<std::uint8_t>& solid) const {
+  void mark_column(int x, int y, std::vector<CellKind>& kind) const {
     int total = 0;
     for (int z = 0; z < height_; ++z) total += turns_[at(x, y, z)];
     if (total != 0) return;  // an open mesh: the faces do not pair up here
@@ -102,7 +102,8 @@ class Columns {
       if (inside == 0) continue;
       const Cell cell{x + range_.first[0], y + range_.first[1], z + range_.first[2]};
       // Several pieces may fill one cell at once; they all write the same.
-      __atomic_store_n(&solid[grid_.index(cell)], std::uint8_t(1), __ATOMIC_RELAXED);
+      CellKind solid = CellKind::solid;
+      __atomic_store(&kind[grid_.index(cell)], &solid, __ATOMIC_RELAXED);
     }
   }
 
@@ -198,9 +199,7 @@ Solids place_solids(const PileState& pile, const std::vector<const TriangleMesh*
   return result;
 }
 
-std::vector<std::uint8_t> fill_solids(const VoxelGrid& grid, const Solids& solids,
-                                      ThreadPool& pool) {
-  std::vector<std::uint8_t> solid(grid.count(), 0);
+void fill_solids(const VoxelGrid& grid, const Solids& solids, ThreadPool& pool, std::vector<CellKind>& kind) {
   pool.run(int(solids.pieces.size()), 4, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const SolidPiece& piece = solids.pieces[std::size_t(i)];
@@ -208,10 +207,9 @@ std::vector<std::uint8_t> fill_solids(const VoxelGrid& grid, const Solids& solid
       if (range.empty()) continue;
       Columns columns(grid, range);
       for (std::size_t t = piece.first; t < piece.last; ++t) columns.add(solids.triangles[t]);
-      columns.mark(solid);
+      columns.mark(kind);
     }
   });
-  return solid;
 }
 
 VoxelSurface find_surface(const VoxelGrid& grid, const Solids& solids, ThreadPool& pool) {
@@ -233,6 +231,9 @@ VoxelSurface find_surface(const VoxelGrid& grid, const Solids& solids, ThreadPoo
     }
   });
   VoxelSurface result;
+  std::size_t count = 0;
+  for (const VoxelSurface& part : parts) count += part.cells.size();
+  result.cells.reserve(count), result.triangles.reserve(count);
   for (VoxelSurface& part : parts) {
     result.cells.insert(result.cells.end(), part.cells.begin(), part.cells.end());
     result.triangles.insert(result.triangles.end(), part.triangles.begin(), part.triangles.end());

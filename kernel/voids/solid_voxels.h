@@ -9,6 +9,7 @@
 #include "kernel/model/pile_state.h"
 #include "kernel/queries/query_triangle.h"
 #include "kernel/geometry/voxel_grid.h"
+#include "kernel/voids/void_space.h"
 
 namespace rubble {
 
@@ -30,10 +31,9 @@ struct Solids {
 // Throws std::invalid_argument for a piece without a mesh.
 Solids place_solids(const PileState& pile, const std::vector<const TriangleMesh*>& meshes);
 
-// 1 for each cell whose centre is inside a piece. Of a mesh that is not closed, only columns of
-// cells count along which its faces pair up; its surface counts in any case (find_surface).
-std::vector<std::uint8_t> fill_solids(const VoxelGrid& grid, const Solids& solids,
-                                      ThreadPool& pool);
+// Marks each cell whose centre is inside a piece. Of a mesh that is not closed, only columns of
+// cells count along which its faces pair up; its surface counts in any case (find_surface). kind: one a cell.
+void fill_solids(const VoxelGrid& grid, const Solids& solids, ThreadPool& pool, std::vector<CellKind>& kind);
 
 // Every cell that a surface passes through, and the triangle that is nearest to the cell's centre.
 struct VoxelSurface {

@@ -9,96 +9,13 @@
 #include "kernel/base/error.h"
 #include "kernel/geometry/distance_transform.h"
 #include "kernel/model/range_check.h"
+#include "kernel/voids/ball_cover.h"
 #include "kernel/voids/rolling_ball.h"
 #include "kernel/voids/solid_voxels.h"
+#include "kernel/voids/void_grids.h"
 
 namespace rubble {
 namespace {
-
-constexpr double kBytesPerCell = 5.6;    // kind and clearance, some layers, lists of void cells
-constexpr double kBytesPerSurface = 40;  // of one cell of a surface, while slabs are joined
-
-std::string format(double value, const char* unit) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.4g %s", value, unit);
-  return text;
-}
-
-bool is_scenery(const SolidPiece& piece, const VoidSpaceOptions& options) {
-  const std::vector<int>& types = options.scenery;
-  return std::find(types.begin(), types.end(), piece.type) != types.end();
-}
-
-// With terrain, the lowest cells are in it. Fines may lie about the pile and do not count.
-Aabb find_bounds(const Solids& solids, const VoidSpaceOptions& options) {
-  Aabb box;
-  for (const SolidPiece& piece : solids.pieces) {
-    if (piece.box.empty() || piece.type == kFineType || is_scenery(piece, options)) continue;
-    box.include(piece.box.min);
-    box.include(piece.box.max);
-  }
-  if (box.empty()) box.include({0, 0, 0});
-  if (options.ground) box.min.z = 0;
-  return box;
-}
-
-// Around the pieces, with room for the rolling ball; corners at whole multiples of the voxel, so
-// that a pile is cut in the same way wherever its edge happens to be.
-VoxelGrid make_grid(const Aabb& box, const VoidSpaceOptions& options) {
-  const double margin = options.rolling_radius + 3 * options.voxel;
-  VoxelGrid grid;
-  grid.voxel = options.voxel;
-  for (int k = 0; k < 3; ++k) {
-    const bool floor = k == 2 && options.ground;
-    const double low = std::floor((box.min[k] - (floor ? 0 : margin)) / options.voxel);
-    const double high = std::ceil((std::max(box.max[k], box.min[k]) + margin) / options.voxel);
-    grid.corner[k] = low * options.voxel;
-    grid.size[std::size_t(k)] = int(high - low);
-  }
-  return grid;
-}
-
-double count_cells(const Aabb& box, const VoidSpaceOptions& options) {
-  const double margin = options.rolling_radius + 3 * options.voxel;
-  const Vec3 size = box.max - box.min;
-  const double h = options.voxel;
-  return (size.x + 2 * margin) / h * ((size.y + 2 * margin) / h) *
-         ((size.z + (options.ground ? 1 : 2) * margin) / h);
-}
-
-double estimate(const Solids& solids, const VoidSpaceOptions& options) {
-  const Vec3 room = find_bounds(solids, options).max - find_bounds(solids, options).min;
-  double area = 0;
-  for (const SolidPiece& piece : solids.pieces) {
-    if (is_scenery(piece, options)) {
-      area += 2 * room.x * room.y;  // about what of it is in the grid
-      continue;
-    }
-    for (std::size_t i = piece.first; i < piece.last; ++i) {
-      const QueryTriangle& t = solids.triangles[i];
-      area += norm(cross(t.b - t.a, t.c - t.a)) / 2;
-    }
-  }
-  const double surface = 2.2 * area / (options.voxel * options.voxel);
-  return kBytesPerCell * count_cells(find_bounds(solids, options), options) +
-         kBytesPerSurface * surface + double(solids.triangles.size() * sizeof(QueryTriangle));
-}
-
-void check_memory(const Solids& solids, const VoidSpaceOptions& options) {
-  const double need = estimate(solids, options);
-  if (need <= options.memory_limit) return;
-  VoidSpaceOptions coarser = options;
-  while (estimate(solids, coarser) > options.memory_limit && coarser.voxel < 10) {
-    coarser.voxel *= 1.05;
-  }
-  Diagnostic d;
-  d.key = "voxel";
-  d.message = "too small for the memory: about " + format(need / (1 << 30), "GiB") + " are needed";
-  d.expected = "at most " + format(options.memory_limit / (1 << 30), "GiB");
-  d.found = "voxels of " + format(options.voxel, "m");
-  d.hint = "use voxels of " + format(coarser.voxel, "m") + " or raise the limit";
-  throw InputError(d);
-}
 
 // Of some triangles of a surface the distance to the nearest.
 class NearestTriangle {
@@ -127,26 +44,24 @@ class NearestTriangle {
 // Everything that is worked out on the way to a VoidSpace, from the top down.
 class Builder {
  public:
-  Builder(Solids solids, const VoidSpaceOptions& options, const VoidProgress& progress)
-      : solids_(std::move(solids)), options_(options), progress_(progress), pool_(options.threads) {
-    space_.grid = make_grid(find_bounds(solids_, options), options);
-    space_.rolling_radius = options.rolling_radius;
-  }
+  Builder(Solids solids, const VoidGrids& grids, const VoidSpaceOptions& options, const VoidProgress& progress)
+      : solids_(std::move(solids)), grids_(grids), options_(options), progress_(progress), pool_(options.threads) {}
 
   VoidSpace build() {
-    mark_solids();
-    report(0.15);
-    surface_ = find_surface(space_.grid, solids_, pool_);
-    report(0.45);
-    measure_clearance();
-    surface_ = {};
-    solids_ = {};
-    report(0.7);
-    sweep_outside(space_, options_.ground, pool_);
-    report(0.95);
-    if (options_.ground) clip_to_ground();
+    VoidSpace map = make_space(grids_.map);
+    if (grids_.is_one()) {
+      measure(map, 0, 0.7);
+      solids_ = {};
+      sweep_outside(map, options_.ground, pool_);
+      report(0.95);
+    } else {
+      sweep_by_large_cells(map, 0.25);
+      measure(map, 0.25, 0.95);
+    }
+    if (options_.ground) clip_to_ground(map);
+    if (options_.margin) map = crop_to_pile(std::move(map), *options_.margin);
     report(1);
-    return std::move(space_);
+    return map;
   }
 
  private:
@@ -154,32 +69,42 @@ class Builder {
     if (progress_ && !progress_(done)) throw RunError("stopped while looking for voids");
   }
 
-  // Layers of cells, each to one thread.
-  template <typename Body>
-  void for_each_cell(Body&& body) {
-    const std::size_t layer = std::size_t(space_.grid.size[0]) * std::size_t(space_.grid.size[1]);
-    pool_.run(space_.grid.size[2], 1, [&](int begin, int end) {
-      for (std::size_t i = std::size_t(begin) * layer; i < std::size_t(end) * layer; ++i) body(i);
-    });
+  VoidSpace make_space(const VoxelGrid& grid) const {
+    VoidSpace space;
+    space.grid = grid;
+    space.kind.assign(grid.count(), CellKind::free_void);
+    space.rolling_radius = options_.rolling_radius;
+    return space;
   }
 
-  void mark_solids() {
-    const std::vector<std::uint8_t> solid = fill_solids(space_.grid, solids_, pool_);
-    space_.kind.assign(space_.grid.count(), CellKind::free_void);
-    for_each_cell([&](std::size_t i) {
-      if (solid[i]) space_.kind[i] = CellKind::solid;
-    });
+  void sweep_by_large_cells(VoidSpace& map, double end) {
+    VoidSpace balls = make_space(grids_.ball);
+    measure(balls, 0, 0.7 * end);
+    roll_ball(balls, options_.ground);
+    cover_by_balls(balls, map, pool_);
+    report(end);
+  }
+
+  // Solids, and the clearance from the pieces.
+  void measure(VoidSpace& space, double begin, double end) {
+    const auto part = [&](double done) { report(begin + (end - begin) * done); };
+    fill_solids(space.grid, solids_, pool_, space.kind);
+    part(0.2);
+    const VoxelSurface surface = find_surface(space.grid, solids_, pool_);
+    part(0.6);
+    measure_clearance(space, surface);
+    part(1);
   }
 
   // From the pieces alone; the ground is added when the ball has rolled. Near is what is nearest
   // to the cell itself or, since that was the nearest of surface *cells*, to one beside it.
   // The nearest surface cells are found in the memory of the clearance, which replaces them layer
   // by layer.
-  void measure_clearance() {
-    const VoxelGrid& grid = space_.grid;
-    space_.clearance.resize(grid.count());
-    float* const values = space_.clearance.data();
-    find_nearest_seeds(grid, surface_.cells, pool_, values);
+  void measure_clearance(VoidSpace& space, const VoxelSurface& surface) {
+    const VoxelGrid& grid = space.grid;
+    space.clearance.resize(grid.count());
+    float* const values = space.clearance.data();
+    find_nearest_seeds(grid, surface.cells, pool_, values);
     const std::size_t row = std::size_t(grid.size[0]), layer = row * std::size_t(grid.size[1]);
     std::vector<std::uint32_t> below(layer), here(layer);
     for (int z = 0; z < grid.size[2]; ++z) {
@@ -189,7 +114,11 @@ class Builder {
         for (int y = begin; y < end; ++y)
           for (int x = 0; x < grid.size[0]; ++x) {
             const std::size_t c = std::size_t(x) + row * std::size_t(y);
-            NearestTriangle found(solids_, surface_, grid.centre(Cell{x, y, z}));
+            if (space.kind[first + c] == CellKind::solid) {
+              values[first + c] = 0;
+              continue;
+            }
+            NearestTriangle found(solids_, surface, grid.centre(Cell{x, y, z}));
             found.consider(here[c]);
             if (x > 0) found.consider(here[c - 1]);
             if (x + 1 < grid.size[0]) found.consider(here[c + 1]);
@@ -197,26 +126,30 @@ class Builder {
             if (y + 1 < grid.size[1]) found.consider(here[c + row]);
             if (z > 0) found.consider(below[c]);
             if (z + 1 < grid.size[2]) found.consider(seed_at(values, first + layer + c));
-            values[first + c] = space_.kind[first + c] == CellKind::solid ? 0 : found.distance();
+            values[first + c] = found.distance();
           }
       });
       std::swap(below, here);
     }
   }
 
-  void clip_to_ground() {
-    for_each_cell([&](std::size_t i) {
-      const double height = space_.grid.centre(i).z;
-      space_.clearance[i] = float(std::min(double(space_.clearance[i]), std::max(0.0, height)));
+  void clip_to_ground(VoidSpace& space) {
+    const VoxelGrid& grid = space.grid;
+    const std::size_t layer = std::size_t(grid.size[0]) * std::size_t(grid.size[1]);
+    pool_.run(grid.size[2], 1, [&](int begin, int end) {
+      for (int z = begin; z < end; ++z) {
+        const double height = std::max(0.0, grid.centre(Cell{0, 0, z}).z);
+        for (std::size_t i = std::size_t(z) * layer; i < (std::size_t(z) + 1) * layer; ++i)
+          space.clearance[i] = float(std::min(double(space.clearance[i]), height));
+      }
     });
   }
 
   Solids solids_;
+  const VoidGrids& grids_;
   const VoidSpaceOptions& options_;
   const VoidProgress& progress_;
   ThreadPool pool_;
-  VoidSpace space_;
-  VoxelSurface surface_;
 };
 
 }  // namespace
@@ -226,6 +159,7 @@ void VoidSpaceOptions::validate() const {
   check.expect(voxel >= 0.001 && voxel <= 1, "voxel", "0.001 to 1 m", voxel);
   check.expect(rolling_radius >= 2 * voxel && rolling_radius <= 10, "rolling_radius",
                "2 voxels to 10 m", rolling_radius);
+  if (margin) check.expect(*margin >= 0 && *margin <= 100, "margin", "0 to 100 m", *margin);
   check.expect(memory_limit > 0, "memory_limit", "more than 0 bytes", memory_limit);
   check.expect(threads >= 0 && threads <= 1024, "threads", "0 to 1024", threads);
   check.finish();
@@ -253,7 +187,8 @@ VoidSpace calc_void_space(const PileState& pile, const std::vector<const Triangl
   options.validate();
   Solids solids = place_solids(pile, meshes);
   check_memory(solids, options);
-  VoidSpace space = Builder(std::move(solids), options, progress).build();
+  const VoidGrids grids = plan_grids(solids, options);
+  VoidSpace space = Builder(std::move(solids), grids, options, progress).build();
   space.pile_state = pile.state_hash();
   return space;
 }

@@ -2,13 +2,14 @@
 // surface.
 //
 // Outside is the space that a ball of `rolling_radius` sweeps. The ball comes from the sky and moves wherever it
-// touches no piece. The ground does not stop the ball; only its centre stays above. Void is the rest of the free space:
-// the cavities, channels and clefts of a probe-in, probe-out method (Voss and Gerstein 2010, "3V: cavity, channel and
+// touches no piece. The ground does not stop the ball; only its centre stays above. In a map of voxels smaller than 1/64 of
+// its radius the ball rolls over larger ones, of up to 1/32. Void is the rest of the free space: the cavities, channels and clefts of a probe-in, probe-out method (Voss and Gerstein 2010, "3V: cavity, channel and
 // cleft volume calculator and extractor").
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "kernel/base/mesh.h"
@@ -30,6 +31,9 @@ struct VoidSpaceOptions {
   double voxel = 0.02;                    // unit: m; range: 0.001 to 1
   double rolling_radius = kOutsideRadius;  // unit: m; range: 2 voxels to 10 m
   bool ground = true;                     // the plane z = 0 is a surface with solid below
+  // Of the outside that the map keeps around all solid and void cells; nothing: what the ball needs, so that paths
+  // lead through the outside, too. Voids are the same with less memory; unit: m; range: 0 to 100
+  std::optional<double> margin;
   // Solid types that do not extend the map: terrain. The map surrounds the other pieces.
   std::vector<int> scenery{};
   double memory_limit = 4.0 * (1 << 30);  // unit: byte

@@ -220,6 +220,74 @@ TEST(VoidSpace, AVoidMapTakesAFewBytesACell) {
 }
 #endif
 
+// Between two boxes of the same height, a ball dips into the gap by r - sqrt(r2 - w2 / 4). Voxels are a hundredth of its
+// radius, so that it rolls over larger ones.
+TEST(VoidSpace, ALargeBallDipsIntoAGapAsFarAsItsRadiusSays) {
+  const double width = 1.2, radius = 2, top = 1.003;
+  VoidScene scene;
+  scene.add(testing::make_box({-1.6, -2, 0}, {-width / 2, 2, top}));
+  scene.add(testing::make_box({width / 2, -2, 0}, {1.6, 2, top}));
+  VoidSpaceOptions options = options_with(0.02, radius);
+  options.margin = 0.1;
+  const VoidSpace space = calc_void_space(scene.pile, scene.pointers(), options);
+  EXPECT_LT(space.grid.size[0] * space.grid.voxel, 3.6) << "no room for the ball is kept";
+  for (const double x : {0.0, 0.2, -0.4}) {
+    const double lowest = top - std::sqrt(radius * radius - x * x) + std::sqrt(radius * radius - width * width / 4);
+    double highest = 0;
+    for (int z = 0; z < space.grid.size[2]; ++z) {
+      const Cell c = space.grid.find_cell({x, 0, space.grid.corner.z + (z + 0.5) * space.grid.voxel});
+      if (space.kind[space.grid.index(c)] == CellKind::free_void) highest = space.grid.centre(c).z;
+    }
+    EXPECT_NEAR(highest, lowest - 0.5 * options.voxel, 1.5 * options.voxel) << "a voxel is added to the ball; at x " << x;
+  }
+}
+
+TEST(VoidSpace, IsTheSameWithLittleOfTheOutside) {
+  VoidScene scene;
+  testing::add_room(scene, {0, 0, 0}, {1.2, 1, 0.8}, 0.1);
+  scene.add(testing::make_box({1.5, 0.1, 0}, {2, 0.9, 1.1}));
+  VoidSpaceOptions options = options_with(0.02, 1.3);
+  const VoidSpace whole = calc_void_space(scene.pile, scene.pointers(), options);
+  options.margin = 0.1;
+  const VoidSpace part = calc_void_space(scene.pile, scene.pointers(), options);
+  EXPECT_LT(part.grid.count(), whole.grid.count() / 3);
+  std::size_t other = 0;
+  for (std::size_t i = 0; i < part.kind.size(); ++i) {
+    const std::size_t k = whole.grid.index(whole.grid.find_cell(part.grid.centre(i)));
+    other += part.kind[i] != whole.kind[k] || std::abs(part.clearance[i] - whole.clearance[k]) > 1e-5f;
+  }
+  EXPECT_LT(other, part.kind.size() / 1000) << "corners of cells are rounded in other places";
+  EXPECT_NEAR(part.volume(CellKind::free_void), whole.volume(CellKind::free_void), 0.001);
+}
+
+// With terrain, the nearest surface may be where the map is not.
+TEST(VoidSpace, KnowsTerrainBesideIt) {
+  VoidScene scene;
+  scene.add(testing::make_box({-0.5, -0.5, 0}, {0.5, 0.5, 1}));
+  scene.add(testing::make_box({1.3, -5, 0}, {1.5, 5, 3}));
+  VoidSpaceOptions options = options_with(0.02, 2);
+  options.margin = 0.6, options.scenery = {1};
+  const VoidSpace space = calc_void_space(scene.pile, scene.pointers(), options);
+  const Vec3 p{1.05, 0, 0.7};
+  const Cell c = space.grid.find_cell(p);
+  ASSERT_TRUE(space.grid.contains(c));
+  EXPECT_NEAR(space.clearance[space.grid.index(c)], 1.3 - space.grid.centre(c).x, 1e-3);
+}
+
+TEST(VoidSpace, RefusesMoreCellsThan32BitsNumber) {
+  VoidScene scene;
+  testing::add_room(scene, {0, 0, 0}, {20, 20, 10}, 0.1);
+  VoidSpaceOptions options = options_with(0.005, 1);
+  options.memory_limit = 1e13;
+  try {
+    calc_void_space(scene.pile, scene.pointers(), options);
+    FAIL() << "expected an InputError";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("cells"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("use voxels of"), std::string::npos) << e.what();
+  }
+}
+
 TEST(VoidSpace, RefusesVoxelsThatMemoryCannotHold) {
   VoidScene scene;
   testing::add_room(scene, {0, 0, 0}, {4, 4, 2}, 0.1);
@@ -238,6 +306,9 @@ TEST(VoidSpace, NamesOptionsOutOfRange) {
   VoidScene scene;
   EXPECT_THROW(calc_void_space(scene.pile, {}, options_with(0, 1)), InputError);
   EXPECT_THROW(calc_void_space(scene.pile, {}, options_with(0.1, 0.1)), InputError);
+  VoidSpaceOptions options = options_with(0.1, 1);
+  options.margin = -1;
+  EXPECT_THROW(calc_void_space(scene.pile, {}, options), InputError);
 }
 
 }  // namespace void_space_test

@@ -47,6 +47,7 @@ void VoidSurvey::start(const PileState& pile, std::int64_t step, int threads) {
   VoidSpaceOptions options = make_void_options(voids_);
   options.threads = threads;
   options.scenery = assets_.terrain();
+  options.margin = kMargin;
   thread_ = std::thread([this, pile, options] {
     const auto report = [this](double from, double share) {
       return [this, from, share](double done) {
@@ -56,8 +57,7 @@ void VoidSurvey::start(const PileState& pile, std::int64_t step, int threads) {
     };
     try {
       VoidSpace space = calc_void_space(pile, assets_.finest_meshes(), options, report(0, kSpaceShare));
-      map_ = std::make_unique<VoidMap>(
-          find_voids(crop_to_pile(std::move(space), kMargin), {voids_.radius}, report(kSpaceShare, 1 - kSpaceShare)));
+      map_ = std::make_unique<VoidMap>(find_voids(std::move(space), {voids_.radius}, report(kSpaceShare, 1 - kSpaceShare)));
     } catch (...) {
       failure_ = std::current_exception();
     }

@@ -1,0 +1,21 @@
+// The grids of a void map, and whether they fit into memory. Internal to kernel/voids.
+#pragma once
+
+#include "kernel/voids/solid_voxels.h"
+#include "kernel/voids/void_space.h"
+
+namespace rubble {
+
+struct VoidGrids {
+  VoxelGrid map;   // of the result
+  VoxelGrid ball;  // in which the ball rolls: all pieces, with room for it
+
+  bool is_one() const { return map.voxel == ball.voxel; }  // both are the same
+};
+
+VoidGrids plan_grids(const Solids& solids, const VoidSpaceOptions& options);
+
+// Throws InputError, with a voxel size that fits, where the map takes more than the limit.
+void check_memory(const Solids& solids, const VoidSpaceOptions& options);
+
+}  // namespace rubble

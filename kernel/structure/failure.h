@@ -52,8 +52,9 @@ std::vector<BondFailure> find_failing(const Structure& structure, const BondGrou
 double calc_breaking_energy(const Section& section);
 
 // Whether a structure stands by itself.
-// The forces in a structure's bonds under its own weight, by bond. Throws InputError naming the worst
-// bond, its failure and by how much, where one is used up: the building does not stand by itself.
+// The forces in a structure's bonds under its own weight, by bond. Bonds may crack, or bend as hinges, where the others
+// carry their loads and no piece comes loose. Else throws InputError naming the bond that is used up most, its failure and by
+// how much: the building does not stand by itself.
 std::vector<SectionForces> check_stands(const Structure& structure, double gravity);
 
 // The bars of a bond after its concrete has failed, as ties between its pieces.

@@ -59,7 +59,7 @@ def main():
     parser.add_argument("document")
     args = parser.parse_args()
     rows = {key_of(line): line for line in read_between_marks(args.document, "search").splitlines()
-            if key_of(line)[0] in DIFFICULTIES}
+            if line.startswith("|") and key_of(line)[0] in DIFFICULTIES}
     for difficulty in args.difficulties:
         for row in play(args, difficulty):
             name = args.name if row["name"] == "agent" else row["name"]

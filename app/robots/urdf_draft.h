@@ -15,7 +15,7 @@ namespace rubble {
 struct UrdfDraft {
   const UrdfFile& file;
   const RobotItem& robot;
-  std::string key;                            // of the robot in the mission
+  std::string key;                               // of the robot in the mission
   MissionRobot made{};
   std::vector<int> body_lines{}, joint_lines{};  // by body, by joint of the model
   std::vector<Diagnostic> mistakes{};

@@ -112,10 +112,10 @@ class Drive {
         for (const RobotJoint& roller : joints)
           if (roller.parent == joints[std::size_t(wheel)].child && roller.kind != JointKind::weld)
             return draft_.refuse_key(side == &draft_.made.model.sides.left ? "left_wheels" : "right_wheels",
-                              "the wheel has rollers: mecanum and omni wheels do not drive as these do; a function as `control` "
-                              "gives each wheel its speed",
-                              "wheels without joints of their own",
-                              "\"" + joints[std::size_t(wheel)].name + "\" with \"" + roller.name + "\"");
+                                     "the wheel has rollers: mecanum and omni wheels do not drive as these do; a function as `control` "
+                                     "gives each wheel its speed",
+                                     "wheels without joints of their own",
+                                     "\"" + joints[std::size_t(wheel)].name + "\" with \"" + roller.name + "\"");
   }
 
   // The joints between the base and that one, nearest first.

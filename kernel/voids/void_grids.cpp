@@ -13,7 +13,7 @@ namespace {
 constexpr double kLeastCells = 32;         // of the ball's radius
 constexpr double kMostCells = 4294967294;  // that 32 bits number
 constexpr double kBytesPerCell = 5.6;      // kind and clearance, some layers, lists of void cells
-constexpr double kBytesPerSurface = 40;  // of one cell of a surface, while slabs are joined
+constexpr double kBytesPerSurface = 40;    // of one cell of a surface, while slabs are joined
 
 std::string format(double value, const char* unit) {
   char text[64];
@@ -139,7 +139,8 @@ void check_memory(const Solids& solids, const VoidSpaceOptions& options) {
   Diagnostic d;
   d.key = "voxel";
   if (need <= options.memory_limit) {
-    d.message = "too small: more than 4,294,967,294 cells";
+    d.message = "too small for this pile: its map has more cells than 32 bits number";
+    d.expected = "at most 4,294,967,294 cells";
     d.found = "voxels of " + format(options.voxel, "m");
     d.hint = "use voxels of " + format(coarser.voxel, "m");
     throw InputError(d);

@@ -3,8 +3,9 @@
 //
 // Outside is the space that a ball of `rolling_radius` sweeps. The ball comes from the sky and moves wherever it
 // touches no piece. The ground does not stop the ball; only its centre stays above. In a map of voxels smaller than 1/64 of
-// its radius the ball rolls over larger ones, of up to 1/32. Void is the rest of the free space: the cavities, channels and clefts of a probe-in, probe-out method (Voss and Gerstein 2010, "3V: cavity, channel and
-// cleft volume calculator and extractor").
+// its radius the ball rolls over larger ones, of up to 1/32. Void is the rest of the free space: the cavities, channels
+// and clefts of a probe-in, probe-out method (Voss and Gerstein 2010, "3V: cavity, channel and cleft volume calculator
+// and extractor").
 #pragma once
 
 #include <cstdint>

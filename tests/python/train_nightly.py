@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Trains PPO in each environment and compares it with random actions: train_nightly.py BUILD_FOLDER WORK [OPTION...]
 
-  --minutes N            of training for each seed (default: 20)
+  --minutes N            of processor time for each seed (default: 40, what two cores have in twenty minutes)
   --seeds N              (default: 5)
   --environments A,B     (default: all three)
+  --jobs N               trainings beside each other, one thread each (default: 2)
   --budget N             minutes that this call may take; the next one goes on where it stopped (default: no limit)
   --python PATH          an interpreter with the packages of requirements-learning.txt (default: one is made in WORK)
 
-Writes WORK/table.md and WORK/curves.svg. Trainings of other sources of the environments are made anew. Exit code 77, which
+Writes WORK/table.md and WORK/curves.svg. Trainings of other sources of the environments are made anew; with more minutes they
+go on. Exit code 77, which
 CTest takes as skipped: the budget is used up, or no index of packages is reached. Exit code 1: an environment of LEARNS is not
 above random by two standard errors.
 """
@@ -22,11 +24,12 @@ import statistics
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ENVIRONMENTS = ("CrawlerNav", "SnakeExplore", "VoidExplore")
-LEARNS = ("CrawlerNav",)  # in twenty minutes
+LEARNS = ("CrawlerNav",)  # in this time
 COLOURS = ("#1b6ca8", "#c8553d", "#588b3c", "#8a5a9e", "#b08b2e")
 
 
@@ -42,9 +45,9 @@ def make_environment(work):
     return python
 
 
-def forget_other_sources(work, build, minutes):
+def forget_other_sources(work, build):
     """Removes what was trained with other environments."""
-    digest = hashlib.sha256(str(minutes).encode())
+    digest = hashlib.sha256()
     for path in [HERE / "train_one.py", *sorted((build / "python/rubble/envs").glob("*.py"))]:
         digest.update(path.name.encode() + path.read_bytes())
     stamp = work / "trained/sources.txt"
@@ -96,9 +99,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=Path)
     parser.add_argument("work", type=Path)
-    parser.add_argument("--minutes", type=float, default=20)
+    parser.add_argument("--minutes", type=float, default=40)
     parser.add_argument("--seeds", type=int, default=5)
     parser.add_argument("--environments", default=",".join(ENVIRONMENTS))
+    parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--budget", type=float, default=math.inf)
     parser.add_argument("--python", type=Path)
     wish = parser.parse_args()
@@ -108,31 +112,43 @@ def main():
     if python is None:
         print("skipped: the packages of tests/python/requirements-learning.txt cannot be installed here")
         return 77
-    forget_other_sources(wish.work, wish.build, wish.minutes)
+    forget_other_sources(wish.work, wish.build)
     # The package lies beside the program, whose assets it finds.
-    environment = dict(os.environ, PYTHONPATH=str(wish.build / "python"), PYTHONDONTWRITEBYTECODE="1", OMP_NUM_THREADS="2")
+    environment = dict(os.environ, PYTHONPATH=str(wish.build / "python"), PYTHONDONTWRITEBYTECODE="1", OMP_NUM_THREADS="1")
 
     def run(what, name, seed, folder, seconds=0.0):
         subprocess.run([python, HERE / "train_one.py", what, name, str(seed), folder, str(seconds)], check=True, env=environment)
 
     # Where PyTorch is, the checker of stable-baselines3 runs, too.
     subprocess.run([python, "-m", "unittest", "-k", "StableBaselines", HERE / "test_gymnasium.py"], check=True, env=environment, cwd=HERE.parent.parent)
+    def train(seed, name):
+        """Returns how long the training lacks its time."""
+        folder = wish.work / f"trained/{name}_{seed}"
+
+        def missing():
+            return 60 * wish.minutes - read(folder / "state.json").get("seconds", 0)
+        while missing() > 1:
+            left = until - time.monotonic()
+            if left < 60:
+                return missing()
+            (folder / "result.json").unlink(missing_ok=True)
+            run("train", name, seed, folder, min(left - 30, missing()))
+        if not (folder / "result.json").exists():
+            run("measure", name, seed, folder)
+        return 0
+
     for name in names:
         folder = wish.work / f"trained/{name}_random"
         if not (folder / "result.json").exists():
             run("random", name, 0, folder)
-    for seed in range(1, wish.seeds + 1):  # each environment by turns
-        for name in names:
-            folder = wish.work / f"trained/{name}_{seed}"
-            while 60 * wish.minutes - read(folder / "state.json").get("seconds", 0) > 1:
-                left = until - time.monotonic()
-                if left < 60:
-                    print(f"skipped: {name}, seed {seed} has trained for {read(folder / 'state.json').get('seconds', 0) / 60:.0f} of "
-                          f"{wish.minutes:g} minutes; call it again")
-                    return 77
-                run("train", name, seed, folder, min(left - 30, 60 * wish.minutes - read(folder / "state.json").get("seconds", 0)))
-            if not (folder / "result.json").exists():
-                run("measure", name, seed, folder)
+    trainings = [(seed, name) for seed in range(1, wish.seeds + 1) for name in names]  # each environment by turns
+    with ThreadPoolExecutor(wish.jobs) as jobs:
+        missing = list(jobs.map(lambda training: train(*training), trainings))
+    if any(missing):
+        seed, name = trainings[next(i for i, seconds in enumerate(missing) if seconds)]
+        print(f"skipped: {sum(not seconds for seconds in missing)} of {len(trainings)} trainings are complete; {name}, seed {seed} has trained "
+              f"for {read(wish.work / f'trained/{name}_{seed}/state.json').get('seconds', 0) / 60:.0f} of {wish.minutes:g} minutes; call it again")
+        return 77
     lines, failed = ["|environment|steps of each seed|PPO: mean return|random actions|above by two standard errors|", "|---|---|---|---|---|"], False
     for name in names:
         trained, chance, above = compare(wish.work, name, wish.seeds)

@@ -1,9 +1,9 @@
 """Trains PPO of stable-baselines3 in an environment for some time, or measures its policy: train_one.py WHAT ENVIRONMENT SEED
 FOLDER SECONDS
 
-WHAT: train (goes on where it was, for SECONDS more), measure (writes FOLDER/result.json), random (that of random actions).
-FOLDER has model.zip, scales.pkl and state.json of the training, and curve.csv: steps, seconds, episodes since the last row and
-their mean return.
+WHAT: train (goes on where it was, for SECONDS more of processor time, so that a busy machine trains as much as a quiet one; it
+ends after SECONDS of the clock, too), measure (writes FOLDER/result.json), random (that of random actions). FOLDER has model.zip,
+scales.pkl and state.json of the training, and curve.csv: steps, seconds, episodes since the last row and their mean return.
 """
 import csv
 import json
@@ -20,7 +20,7 @@ from stable_baselines3.common.vec_env import DummyVecEnv, VecNormalize
 
 import rubble.envs
 
-# The episodes are shorter than usual, so that twenty minutes have some hundred; pictures are as small as the network takes.
+# The episodes are shorter than usual, so that forty minutes have some hundred; pictures are as small as the network takes.
 OPTIONS = {"CrawlerNav": {"max_steps": 300}, "SnakeExplore": {"max_steps": 200}, "VoidExplore": {"max_steps": 200, "size": 36}}
 COUNT = 8          # environments of a training
 MEASURED = 24      # episodes of a result
@@ -56,21 +56,22 @@ class Clock(BaseCallback):
         self.returns = []
 
     def _on_training_start(self):
-        self.begin = self.saved = time.monotonic()
+        self.begin = self.saved = time.process_time()
+        self.wall = time.monotonic()
 
     def _on_step(self):
         self.returns += [info["episode"]["r"] for info in self.locals["infos"] if "episode" in info]
-        return time.monotonic() - self.begin < self.seconds
+        return max(time.process_time() - self.begin, time.monotonic() - self.wall) < self.seconds
 
     def _on_rollout_end(self):
-        if time.monotonic() - self.saved > SAVE_S:
+        if time.process_time() - self.saved > SAVE_S:
             self.save()
 
     def _on_training_end(self):
         self.save()
 
     def save(self):
-        self.saved = time.monotonic()
+        self.saved = time.process_time()
         used = self.used + self.saved - self.begin
         with open(os.path.join(self.folder, "curve.csv"), "a") as file:
             csv.writer(file).writerow([self.model.num_timesteps, round(used), len(self.returns), np.mean(self.returns) if self.returns else ""])
@@ -88,7 +89,7 @@ def load(name, folder, count):
 
 
 def train(name, seed, folder, seconds):
-    torch.set_num_threads(2)
+    torch.set_num_threads(1)
     os.makedirs(folder, exist_ok=True)
     used = 0.0
     if os.path.exists(os.path.join(folder, "state.json")):

@@ -24,7 +24,8 @@ MEASURES = {  # name, heading, unit
     "rest_s": ("time to rest", "s"), "top_m": ("top", "m"), "mean_height_m": ("mean height", "m"), "radius_m": ("radius", "m"),
     "porosity": ("porosity", ""), "void_m3": ("voids", "m³"), "robot_void_m3": ("voids of a robot", "m³"),
     "contacts_a_piece": ("contacts a piece", ""), "force_mean": ("mean force", "weights"), "force_90": ("force, 90 %", "weights"),
-    "force_99": ("force, 99 %", "weights"), "distance_m": ("distance", "m"), "path_m": ("path", "m"), "work_j": ("work", "J"),
+    "force_99": ("force, 99 %", "weights"), "throw_90": ("fastest sideways or up, 90 % of the pieces", "m/s"),
+    "throw_99": ("the same, 99 %", "m/s"), "ejected": ("pieces faster than 8 m/s sideways or up", ""), "distance_m": ("distance", "m"), "path_m": ("path", "m"), "work_j": ("work", "J"),
     "stuck_s": ("stuck", "s"), "pieces_moved": ("pieces moved", "")}
 SHOWN = {False: ["mean_height_m", "porosity", "void_m3", "force_mean", "force_99", "rest_s"],
          True: ["distance_m", "path_m", "work_j", "stuck_s", "pieces_moved"]}

@@ -8,7 +8,7 @@ return rubble.mission {
     column_bars = 0.01, beam_bars = 0.008, slab_bars = 0.004,
     infill = "brick", openings = 0.4,
     furniture = { { asset = "table", per_bay = 1 }, { asset = "chair", per_bay = 2 } },
-    cause = { weak_storey = 0, weakness = 0.1 },
+    cause = { weak_storey = 0, weakness = 0.03 },
   },
   settle = { final_time_limit = 60 },
 }

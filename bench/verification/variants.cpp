@@ -8,6 +8,7 @@
 #include "app/measures/metrics.h"
 #include "app/planning/pile_survey.h"
 #include "app/scene/build_scene.h"
+#include "bench/ejection_watch.h"
 #include "bench/process_times.h"
 #include "kernel/robot/drive_commands.h"
 #include "kernel/robot/robot_run.h"
@@ -38,6 +39,7 @@ const std::vector<VerifiedWork>& works() {
   static const std::vector<VerifiedWork> all{
       {"loose", "bench/equilibrium/concrete.lua", {"pile.layers=2", "pile.pieces_per_layer=100", "pile.spawn_bounds={4,4,8}"}, false, "2 x 100 pieces of concrete"},
       {"wood", "bench/equilibrium/residential.lua", {"pile.layers=2", "pile.pieces_per_layer=80", "pile.spawn_bounds={4,4,8}"}, false, "2 x 80 pieces of a house"},
+      {"mixed", "bench/equilibrium/mixed.lua", {"pile.layers=2", "pile.pieces_per_layer=80", "pile.spawn_bounds={4,4,8}"}, false, "2 x 80 pieces of four packs"},
       {"lean_to", "scripts/collapse/lean_to.lua", {}, false, "slabs that lean on a wall, 2 x 80 pieces on them"},
       {"ruin", "bench/verification/ruin.lua", {}, false, "a building of two storeys that comes down"},
       {"robot", "bench/equilibrium/residential.lua", {"pile.layers=1", "pile.pieces_per_layer=60", "pile.spawn_bounds={5,5,6}"}, true,
@@ -54,6 +56,23 @@ const VerifiedWork& find_work(const std::string& name) {
 // Sorted; share: 0 to 1.
 double quantile(const std::vector<double>& sorted, double share) {
   return sorted.empty() ? 0 : sorted[std::min(sorted.size() - 1, std::size_t(share * double(sorted.size())))];
+}
+
+// The largest speed sideways or upwards of each piece so far.
+void note_throws(const World& world, std::vector<double>& fastest) {
+  fastest.resize(std::size_t(world.size()), 0);
+  for (int i = 0; i < world.size(); ++i) {
+    if (!world.is_awake(i)) continue;
+    const Vec3 v = world.piece(i).linear_velocity;
+    fastest[std::size_t(i)] = std::max({fastest[std::size_t(i)], std::hypot(v.x, v.y), v.z});
+  }
+}
+
+void add_throws(std::vector<double> fastest, Record& record) {
+  std::sort(fastest.begin(), fastest.end());
+  record["throw_90"] = quantile(fastest, 0.9);
+  record["throw_99"] = quantile(fastest, 0.99);
+  record["ejected"] = int(fastest.end() - std::upper_bound(fastest.begin(), fastest.end(), kEjectionSpeed));
 }
 
 // Forces between pairs of pieces, and between pieces and the ground, in the last step.
@@ -102,7 +121,9 @@ void add_shape(const PileState& state, const AssetLibrary& assets, int threads, 
 void add_pile(const Pile& pile, const AssetLibrary& assets, const SettleOptions& options, int substeps, Record& record) {
   World world(pile.types, calc_world_options(options), pile.assemblies);
   world.set_step(options.step, substeps);
-  const PileState state = settle_pile(world, pile, options);
+  std::vector<double> throws;
+  const PileState state = settle_pile(world, pile, options, {}, [&](const World& w) { note_throws(w, throws); });
+  add_throws(throws, record);
   record["settled"] = state.settled;
   record["lost"] = state.lost;
   record["rest_s"] = state.simulated;

@@ -58,14 +58,16 @@ std::vector<ContactImpulse> World::Structures::contact_impulses() const {
   const WorldData& data = impl_->data;
   std::vector<ContactImpulse> result;
   for (std::size_t i = 0; i < data.pairs.size(); ++i) {
+    // What is far apart in memory is looked at last: most pairs are not live.
     const Pair& pair = data.pairs[i];
+    if (!pair.live || !(data.contacts[i].pressed > 0)) continue;
     const Contact& contact = data.contacts[i];
     const auto is_bound = [&](std::int32_t collider, std::int32_t body) {
       return collider >= 0 && data.bodies[body].group >= 0;
     };
     const bool of_a = is_bound(pair.collider_a, pair.body_a);
     const bool of_b = is_bound(pair.collider_b, pair.body_b);
-    if (!pair.live || !(contact.pressed > 0) || !(of_a || of_b)) continue;
+    if (!of_a && !of_b) continue;
     each_contact_point(data, pair, contact, [&](const ContactImpulse& c) {
       if (of_a) result.push_back(on_the_other(c));
       if (of_b) result.push_back(c);

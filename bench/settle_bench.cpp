@@ -9,12 +9,14 @@
 
 #include "bench/busy_run.h"
 #include "bench/calibration.h"
+#include "bench/free_run.h"
 #include "bench/hold_run.h"
 #include "bench/program.h"
 #include "bench/report.h"
 #include "bench/settle_run.h"
 #include "bench/sweep_run.h"
 #include "bench/workload_file.h"
+#include "kernel/base/system/thread_count.h"
 
 namespace rubble {
 namespace {
@@ -30,6 +32,8 @@ struct Request {
   bool hold = false;
   bool sweeps = false;
   std::vector<int> busy;
+  int steps = 0;  // 0: settle
+  bool no_sleep = false;
 };
 
 // A path as it is; a bare name like "w1" stands for the file that the build wrote.
@@ -72,6 +76,16 @@ ExitCode hold(const Pile& pile, const SettleJob& job, const Request& request) {
   return settled ? ExitCode::done : ExitCode::did_not_settle;
 }
 
+ExitCode run_steps(const Pile& pile, const SettleJob& job, const Request& request) {
+  const std::vector<int> threads(std::size_t(request.repeat), request.threads > 0 ? request.threads : default_thread_count());
+  bool first = true;
+  for (const FreeRun& run : run_free(pile, job, request.steps, !request.no_sleep, threads)) {
+    print(free_csv_header(), free_csv_line(run), free_text(run), request, first);
+    first = false;
+  }
+  return ExitCode::done;
+}
+
 // What more threads than there are would gain.
 ExitCode plan_sweeps(const Pile& pile, const SettleJob& job) {
   const SweepRun run = run_sweeps(pile, job, {1, 2, 4, 8, 16});
@@ -95,6 +109,7 @@ ExitCode bench(const Request& request) {
   if (request.seed != 0) job.work += "+" + std::to_string(request.seed);
   job.options.schedule = request.schedule;
   job.options.threads = request.threads;
+  if (request.steps > 0) return run_steps(pile, job, request);
   if (request.hold) return hold(pile, job, request);
   if (request.sweeps) return plan_sweeps(pile, job);
   if (!request.busy.empty()) return run_beside_loops(pile, job, request);
@@ -118,7 +133,7 @@ ExitCode run(int argc, char** argv) {
   Request request;
   const std::map<std::string, Schedule> schedules{{"layers", Schedule::layers},
                                                   {"planes", Schedule::planes}};
-  app.add_option("--work", request.work, "A workload file, or w0, w1 or w2")->capture_default_str();
+  app.add_option("--work", request.work, "A workload file, or w0, w1, w2, pyramid, convex_vs_mesh or convex_pile")->capture_default_str();
   app.add_option("--schedule", request.schedule, "How layers follow each other: layers or planes")
       ->transform(CLI::CheckedTransformer(schedules))
       ->default_str("layers");
@@ -142,6 +157,10 @@ ExitCode run(int argc, char** argv) {
                  "Instead settle beside so many busy loops, in turn on one thread and on --threads (two at least), "
                  "--repeat times each: median times and their ratio, as comma-separated lines")
       ->check(CLI::Range(0, 1024));
+  app.add_option("--steps", request.steps,
+                 "Instead make so many steps with all pieces from the start, heights as in the file; as other engines' benches")
+      ->check(CLI::Range(1, 1000000));
+  app.add_flag("--no-sleep", request.no_sleep, "With --steps: nothing falls asleep");
   app.add_flag("--csv", request.csv, "Lines of comma-separated figures below a line of names");
   try {
     app.parse(argc, argv);

@@ -15,6 +15,7 @@ namespace {
 constexpr int kMostShapes = 100000;
 constexpr int kMostCorners = 100000;
 constexpr int kMostPieces = 1000000;
+constexpr int kMostRows = 2000;
 
 // Hands out the words of the text and knows the line they stand in.
 class WordReader {
@@ -61,6 +62,8 @@ class WordReader {
     return int(value);
   }
 
+  static std::string quoted(std::string_view word) { return '"' + std::string(word) + '"'; }
+
   [[noreturn]] void fail(const char* message, const std::string& expected,
                          const std::string& found) const {
     Diagnostic d;
@@ -75,7 +78,6 @@ class WordReader {
 
  private:
   static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-  static std::string quoted(std::string_view word) { return '"' + std::string(word) + '"'; }
   void skip_blanks() {
     for (; next_ < text_.size() && is_blank(text_[next_]); ++next_) line_ += text_[next_] == '\n';
   }
@@ -104,6 +106,30 @@ PieceType read_shape(WordReader& reader) {
     part.points.push_back(read_vector(reader, "a coordinate of a corner"));
   }
   type.parts.push_back(std::move(part));
+  return type;
+}
+
+// Heights over a grid whose middle is the origin, in rows along X from the lowest Y; each cell is two triangles.
+PieceType read_terrain(WordReader& reader) {
+  const int columns = reader.integer("a number of columns from 2 to 2000", 2, kMostRows);
+  const int rows = reader.integer("a number of rows from 2 to 2000", 2, kMostRows);
+  const double cell = reader.real("the side of a cell");
+  if (cell <= 0) reader.fail("out of range", "a side above 0", std::to_string(cell));
+  auto mesh = std::make_shared<TriangleMesh>();
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x)
+      mesh->positions.push_back(Vec3f(Vec3{cell * (x - 0.5 * (columns - 1)), cell * (y - 0.5 * (rows - 1)), reader.real("a height")}));
+  const auto corner = [&](int x, int y) { return std::uint32_t(y * columns + x); };
+  for (int y = 0; y + 1 < rows; ++y)
+    for (int x = 0; x + 1 < columns; ++x) {
+      mesh->triangles.push_back({corner(x, y), corner(x + 1, y), corner(x, y + 1)});
+      mesh->triangles.push_back({corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1)});
+    }
+  PieceType type;
+  type.name = "terrain";
+  type.density = kWorkloadDensity;
+  type.friction = kWorkloadFriction;
+  type.surface = std::move(mesh);
   return type;
 }
 
@@ -136,7 +162,13 @@ Pile parse_workload(const std::string& text, const std::string& name) {
   const int shapes = reader.integer("a number of shapes from 1 to 100000", 1, kMostShapes);
   for (int i = 0; i < shapes; ++i) pile.types.push_back(read_shape(reader));
   while (!reader.at_end()) {
-    reader.keyword("layer");
+    const std::string_view record = reader.word("layer");
+    if (record == "terrain" && pile.layers.empty() && pile.placed.empty()) {
+      pile.types.push_back(read_terrain(reader));
+      pile.placed.push_back({PieceKind(shapes), 1, {}, true});
+      continue;
+    }
+    if (record != "layer") reader.fail("wrong record", "layer", reader.quoted(record));
     const int count = reader.integer("a number of pieces from 0 to 1000000", 0, kMostPieces);
     Layer layer;
     for (int i = 0; i < count; ++i) layer.pieces.push_back(read_piece(reader, shapes));

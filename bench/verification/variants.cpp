@@ -39,7 +39,7 @@ const std::vector<VerifiedWork>& works() {
   static const std::vector<VerifiedWork> all{
       {"loose", "bench/equilibrium/concrete.lua", {"pile.layers=2", "pile.pieces_per_layer=100", "pile.spawn_bounds={4,4,8}"}, false, "2 x 100 pieces of concrete"},
       {"wood", "bench/equilibrium/residential.lua", {"pile.layers=2", "pile.pieces_per_layer=80", "pile.spawn_bounds={4,4,8}"}, false, "2 x 80 pieces of a house"},
-      {"mixed", "bench/equilibrium/mixed.lua", {"pile.layers=2", "pile.pieces_per_layer=80", "pile.spawn_bounds={4,4,8}"}, false, "2 x 80 pieces of four packs"},
+      {"mixed", "bench/equilibrium/mixed.lua", {"pile.layers=2", "pile.pieces_per_layer=80", "pile.spawn_bounds={5,5,8}"}, false, "2 x 80 pieces of four packs"},
       {"lean_to", "scripts/collapse/lean_to.lua", {}, false, "slabs that lean on a wall, 2 x 80 pieces on them"},
       {"ruin", "bench/verification/ruin.lua", {}, false, "a building of two storeys that comes down"},
       {"robot", "bench/equilibrium/residential.lua", {"pile.layers=1", "pile.pieces_per_layer=60", "pile.spawn_bounds={5,5,6}"}, true,

@@ -46,10 +46,31 @@ TEST(WorkloadFile, ReadsShapesAndLayers) {
   EXPECT_NEAR(piece.world_from_body.rotation.z, 0.8, 1e-15);
 }
 
+TEST(WorkloadFile, ReadsATerrain) {
+  const Pile pile = parse_workload(std::string(kTetra) + "terrain 3 2 2\n0 1 0\n0 0 3\nlayer 1\n0 1 0 0 9 1 0 0 0\n", "x.txt");
+  ASSERT_EQ(pile.types.size(), 2U);
+  ASSERT_EQ(pile.placed.size(), 1U);
+  EXPECT_TRUE(pile.placed[0].fixed);
+  EXPECT_EQ(pile.placed[0].kind.index, 1);
+  const TriangleMesh& mesh = *pile.types[1].surface;
+  ASSERT_EQ(mesh.positions.size(), 6U);
+  EXPECT_EQ(mesh.positions[1], (Vec3f{0, -1, 1}));
+  EXPECT_EQ(mesh.positions[5], (Vec3f{2, 1, 3}));
+  ASSERT_EQ(mesh.triangles.size(), 4U);
+  for (const auto& t : mesh.triangles) {  // seen from above
+    const Vec3f &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+    EXPECT_GT(cross(b - a, c - a).z, 0);
+  }
+}
+
 TEST(WorkloadFile, NamesFileAndLineOfAMistake) {
   const std::string hint = " (the format is described in bench/workloads/README.md)";
   EXPECT_EQ(complaint(""),
             "x.txt:1: ends too early: expected shapes, found the end of the file" + hint);
+  EXPECT_EQ(complaint(std::string(kTetra) + "terrain 3 1 2\n0 0 0\n"),
+            "x.txt:7: out of range: expected a number of rows from 2 to 2000, found 1" + hint);
+  EXPECT_EQ(complaint(std::string(kTetra) + "layer 0\nterrain 2 2 1\n0 0 0 0\n"),
+            "x.txt:8: wrong record: expected layer, found \"terrain\"" + hint);
   EXPECT_EQ(complaint("shapes 1\nshape a 4\n0 0 zero\n"),
             "x.txt:3: not a number: expected a coordinate of a corner, found \"zero\"" + hint);
   EXPECT_EQ(complaint(std::string(kTetra) + "layer 1\n1 1 0 0 0 1 0 0 0\n"),

@@ -49,12 +49,14 @@ int BroadPhase::add() {
   return int(boxes_.size()) - 1;
 }
 
-void BroadPhase::update(int item, const Aabb& tight, const Vec3& motion) {
-  if (present_[item]) erase(item);
+Aabb BroadPhase::update(int item, const Aabb& tight, const Vec3& motion) {
+  Aabb before;
+  if (present_[item]) before = boxes_[item], erase(item);
   const Vec3 grow{kEnlarge, kEnlarge, kEnlarge};
   boxes_[item].min = tight.min - grow + min(motion, Vec3{});
   boxes_[item].max = tight.max + grow + max(motion, Vec3{});
   insert(item);
+  return before;
 }
 
 void BroadPhase::remove(int item) {

@@ -27,8 +27,8 @@ class BroadPhase {
            old.max.z >= tight.max.z;
   }
   // Puts an item where `tight` is, in a new enlarged box. `motion`: how far it will go in a few
-  // steps; the box reaches ahead.
-  void update(int item, const Aabb& tight, const Vec3& motion);
+  // steps; the box reaches ahead. Returns the box before; empty: there was none.
+  Aabb update(int item, const Aabb& tight, const Vec3& motion);
   void remove(int item);
 
   // Calls visit(other) for every item whose enlarged box overlaps that of `item`: first large ones, in the order of their

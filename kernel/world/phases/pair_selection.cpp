@@ -72,8 +72,11 @@ void PairSelection::find_pairs(StepPairs& step) {
     if (!leaves_box_[i]) continue;
     const int collider = int(i);
     const Vec3 motion = Vec3(data_.bodies[data_.colliders[i].body].linear) * settings_.options.step;
-    data_.broad.update(collider, calc_swept_box(collider), motion * kLookAhead);
-    data_.broad.query(collider, [&](int other) { pairs_.add(collider, other); });
+    const Aabb before = data_.broad.update(collider, calc_swept_box(collider), motion * kLookAhead);
+    // What the box before met is known: a pair lives as long as its boxes overlap, and what parts bodies finds their pairs.
+    data_.broad.query(collider, [&](int other) {
+      if (!BroadPhase::overlap(before, data_.broad.box(other))) pairs_.add(collider, other);
+    });
     if (data_.broad.box(collider).min.z < 0) pairs_.add(collider, kGround);
     pairs_.update_near_surfaces(collider);
   }

@@ -64,10 +64,13 @@ struct Series {
   };
   Pass total, visibility, resolve, read, finish;
   std::vector<double> triangles;
+  std::vector<double> waits, given, taken;  // as DeviceTraffic; the latter two in MB
 
-  void add(const PassTime& all, const RenderTimes& t) {
+  void add(const PassTime& all, const RenderTimes& t, const DeviceTraffic& before, const DeviceTraffic& after) {
     total.add(all), visibility.add(t.visibility), resolve.add(t.resolve);
     read.add(t.read), finish.add(t.finish), triangles.push_back(double(t.triangles));
+    waits.push_back(double(after.waits - before.waits));
+    given.push_back(1e-6 * double(after.given - before.given)), taken.push_back(1e-6 * double(after.taken - before.taken));
   }
 };
 
@@ -86,10 +89,10 @@ void print(const Request& request, const char* view, int size, const Series& s,
     std::printf("%s,%d,%zu,%.2f,%.2f,%.2f", view, size, s.total.elapsed.size(), middle, least,
                 1000 / middle);
     if (request.split)
-      std::printf(",%.2f,%s,%s,%s,%s,%.0f,%.2f,%.0f,%s", median(s.total.processor),
+      std::printf(",%.2f,%s,%s,%s,%s,%.0f,%.0f,%.2f,%.2f,%.2f,%.0f,%s", median(s.total.processor),
                   both(s.visibility).c_str(), both(s.resolve).c_str(), both(s.read).c_str(),
-                  both(s.finish).c_str(), median(s.triangles), session.first_frame_s, read_peak_rss(),
-                  calibration_csv(session.machine).c_str());
+                  both(s.finish).c_str(), median(s.triangles), median(s.waits), median(s.given), median(s.taken),
+                  session.first_frame_s, read_peak_rss(), calibration_csv(session.machine).c_str());
     std::printf("\n");
   } else {
     std::printf("%-13s %5d %8.1f %8.1f %8.1f %7.1f %13s %13s %9s %11s %10.0f\n", view, size, middle,
@@ -106,7 +109,7 @@ void write_ppm(const std::string& path, const Frame& frame) {
   out.write(reinterpret_cast<const char*>(frame.rgb.data()), std::streamsize(frame.rgb.size()));
 }
 
-Series fly(Renderer& renderer, const BenchView& view, int size, const Request& request,
+Series fly(Device& device, Renderer& renderer, const BenchView& view, int size, const Request& request,
            Session& session) {
   constexpr int kWarm = 3;  // exposure, history of what shows, pages of memory
   const Intrinsics camera = bench_camera(size);
@@ -115,6 +118,7 @@ Series fly(Renderer& renderer, const BenchView& view, int size, const Request& r
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const auto start = Clock::now();
     const double processor_start = processor_ms();
+    const DeviceTraffic before = device.traffic();
     // Seconds pass before the first that counts, so that the exposure is that of this view.
     session.now_ns += i < kWarm ? 2000000000 : 33333333;
     RenderedView seen = renderer.view({session.now_ns, camera, poses[i]});
@@ -123,7 +127,7 @@ Series fly(Renderer& renderer, const BenchView& view, int size, const Request& r
     const Frame frame = std::move(seen).into_frame(int(i));
     if (session.first_frame_s == 0) session.first_frame_s = since(session.start) / 1000;
     const PassTime all{since(start), processor_ms() - processor_start};
-    if (i >= kWarm) series.add(all, times);
+    if (i >= kWarm) series.add(all, times, before, device.traffic());
     if (i + 1 == poses.size() && !request.pictures.empty())
       write_ppm(request.pictures + view.name + "_" + std::to_string(size) + ".ppm", frame);
   }
@@ -133,7 +137,7 @@ Series fly(Renderer& renderer, const BenchView& view, int size, const Request& r
 void print_head(const Request& request, const Device& device, double load_ms, double ready_ms) {
   if (request.csv) {
     std::printf("view,size,frames,median_ms,min_ms,fps%s\n",
-                request.split ? ",cpu_ms,visibility_ms,resolve_ms,read_ms,finish_ms,triangles,"
+                request.split ? ",cpu_ms,visibility_ms,resolve_ms,read_ms,finish_ms,triangles,waits,given_mb,taken_mb,"
                                 "first_frame_s,peak_rss_mib,calibration_1_ms,calibration_2_ms"
                               : "");
     return;
@@ -170,7 +174,7 @@ ExitCode bench(const Request& request) {
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), view.name) == wanted.end())
       continue;
     for (const int size : request.sizes)
-      print(request, view.name, size, fly(renderer, view, size, request, session), session);
+      print(request, view.name, size, fly(*device, renderer, view, size, request, session), session);
   }
   if (!request.csv)
     std::printf("first frame %.2f s after the start; %.0f MiB of memory at most\n%s",
@@ -208,8 +212,8 @@ ExitCode run(int argc, char** argv) {
   app.add_flag("--draft", request.draft, "With camera.quality = draft");
   app.add_flag("--csv", request.csv, "Lines view,size,frames,median_ms,min_ms,fps");
   app.add_flag("--split", request.split,
-               "With --csv also processor time, each pass (elapsed/processor), the first frame "
-               "after the start (s), peak memory and the calibration of the machine");
+               "With --csv also processor time, each pass (elapsed/processor), how often a frame waits for the device, what it "
+               "hands over and takes back, the first frame after the start (s), peak memory and the calibration of the machine");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -2,6 +2,7 @@
 // this interface alone; render/devices has its implementations.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -21,6 +22,12 @@ struct DeviceInfo {
   std::string about;                                         // what it runs on, such as "AVX2"
   std::vector<std::pair<std::string, std::string>> details;  // names and values, such as the driver's version
   std::vector<std::pair<std::string, int>> limits;           // names and values of those that matter here
+};
+
+// Since the device was opened; a device that is the processor has none.
+struct DeviceTraffic {
+  std::uint64_t given = 0, taken = 0;  // to the device and back; unit: byte
+  std::uint64_t waits = 0;             // of the processor for the device
 };
 
 struct DeviceSceneOptions {
@@ -52,6 +59,7 @@ class Device {
   virtual ~Device() = default;
 
   virtual const DeviceInfo& info() const = 0;
+  virtual DeviceTraffic traffic() const { return {}; }
   // One thread at a time may use a device and what it made; this moves it to the calling one.
   virtual void make_current() {}
 

@@ -4,6 +4,8 @@
 
 #include <GL/glcorearb.h>
 
+#include <cstdint>
+
 namespace rubble {
 
 #define RUBBLE_GL_FUNCTIONS(X)                                  \
@@ -86,11 +88,18 @@ namespace rubble {
   X(VertexArrayVertexBuffer, VERTEXARRAYVERTEXBUFFER)           \
   X(Viewport, VIEWPORT)
 
+// Since the context was made.
+struct GlTraffic {
+  std::uint64_t given = 0, taken = 0;  // to the card and back; unit: byte
+  std::uint64_t waits = 0;             // of the processor for the card
+};
+
 // The functions of one context. GL is a set of calls on a current context, so the table is const.
 struct Gl {
 #define RUBBLE_GL_MEMBER(name, upper) PFNGL##upper##PROC name = nullptr;
   RUBBLE_GL_FUNCTIONS(RUBBLE_GL_MEMBER)
 #undef RUBBLE_GL_MEMBER
+  GlTraffic* traffic = nullptr;  // never null in a context; counted by gl_traffic.h
 };
 
 }  // namespace rubble

@@ -55,6 +55,7 @@ struct GlContext::State {
   EGLDisplay display = EGL_NO_DISPLAY;
   EGLContext context = EGL_NO_CONTEXT;
   Gl gl;
+  GlTraffic traffic;
   GlInfo info;
 
   // Empty when it worked, else what failed.
@@ -75,6 +76,7 @@ void GlContext::State::close() {
 }
 
 std::string GlContext::State::load_functions() {
+  gl.traffic = &traffic;
 #define RUBBLE_GL_LOAD(name, upper)                                               \
   gl.name = reinterpret_cast<PFNGL##upper##PROC>(egl.GetProcAddress("gl" #name)); \
   if (!gl.name) return "the driver has no gl" #name;
@@ -163,6 +165,7 @@ GlContext::~GlContext() {
 
 const GlInfo& GlContext::info() const { return state_->info; }
 const Gl& GlContext::gl() const { return state_->gl; }
+const GlTraffic& GlContext::traffic() const { return state_->traffic; }
 
 void GlContext::make_current() {
   const Egl& egl = state_->egl;

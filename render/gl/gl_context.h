@@ -9,6 +9,7 @@
 namespace rubble {
 
 struct Gl;
+struct GlTraffic;
 
 // What the context turned out to be, for `rubble info` and the manifest.
 struct GlInfo {
@@ -52,6 +53,7 @@ class GlContext {
   void make_current();
   void release();        // so that another thread can take it
   const Gl& gl() const;  // for the passes inside render/
+  const GlTraffic& traffic() const;
 
  private:
   friend GlReport report_gl();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/gl/gl.h"
+#include "render/gl/gl_traffic.h"
 
 namespace rubble {
 
@@ -89,8 +90,7 @@ template <typename T, typename Memory>
 GlBuffer make_buffer(const Gl& gl, const std::vector<T, Memory>& data, GLenum usage = GL_STATIC_DRAW) {
   GlBuffer buffer(gl);
   const std::size_t size = data.size() * sizeof(T);
-  gl.NamedBufferData(buffer.name(), GLsizeiptr(size ? size : 16), size ? data.data() : nullptr,
-                     usage);
+  give_buffer(gl, buffer.name(), size ? size : 16, size ? data.data() : nullptr, usage);
   return buffer;
 }
 

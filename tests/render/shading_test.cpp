@@ -199,6 +199,30 @@ TEST(GlLight, IsThatOfARendererWhichDrewNothingBefore) {
   EXPECT_EQ(fresh.view(at_heap).rgb(), lit);
 }
 
+// What render_bench --split prints. A frame that waits more often, or hands over more, is slower on a card.
+TEST(GlTraffic, OfAFrameIsCounted) {
+  GlDevice gl;
+  SoftwareDevice software;
+  Scene heap = make_heap(60, 4);
+  heap.light.intensity = 0, heap.lamp.on = true;
+  const ViewRays at_heap{1000000000, pinhole(kWidth, kHeight, 120), look_at({1, 0.2, 0.6}, {-1.5, 0.1, 0.5})};
+  Renderer by_gl(gl, heap, plain()), by_software(software, heap, plain());
+  by_gl.view(at_heap).rgb();
+  const DeviceTraffic before = gl.traffic();
+  EXPECT_GT(before.given, 100000u);  // the scene
+  RenderedView seen = by_gl.view(at_heap);
+  seen.rgb(), seen.depth();
+  const DeviceTraffic after = gl.traffic();
+  EXPECT_LE(after.waits - before.waits, 5u);  // depth so far and at last, triangles, exposure, colours
+  EXPECT_GE(after.waits - before.waits, 2u);
+  EXPECT_LT(after.given - before.given, 100000u);
+  const std::uint64_t pixels = std::uint64_t(kWidth) * std::uint64_t(kHeight);
+  EXPECT_GE(after.taken - before.taken, 8 * pixels);
+  EXPECT_LE(after.taken - before.taken, 21 * pixels);
+  by_software.view(at_heap).rgb();
+  EXPECT_EQ(software.traffic().given + software.traffic().taken + software.traffic().waits, 0u);
+}
+
 TEST(WideShaders, AreNamedWhereOneIsUnknown) {
   EXPECT_EQ(find_wide_shader("plain").name, std::string("plain"));
   EXPECT_EQ(find_wide_shader("").name, wide_shaders().front().name);

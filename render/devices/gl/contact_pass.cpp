@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/gl/gl_traffic.h"
 #include "render/gl/shader.h"
 
 namespace rubble {
@@ -38,7 +39,7 @@ void ContactPass::draw(const ViewProjection& view, const GlTexture& depth, const
   resize(std::max(1, (k.width + 1) / 2), std::max(1, (k.height + 1) / 2));
   const float block[12] = {float(k.fx),  float(k.fy),  float(k.cx),  float(k.cy), lamp.place.x, lamp.place.y,
                            lamp.place.z, lamp.radius, kNearPlane, 0, 0, 0};
-  gl_.NamedBufferData(block_.name(), sizeof block, block, GL_STREAM_DRAW);
+  give_buffer(gl_, block_.name(), sizeof block, block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_.name());
   gl_.Viewport(0, 0, width_, height_);
   gl_.Disable(GL_DEPTH_TEST);

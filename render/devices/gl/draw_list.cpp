@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "render/gl/gl_traffic.h"
+
 namespace rubble {
 
 DrawList::DrawList(const Gl& gl, const GlGeometry& geometry)
@@ -32,10 +34,8 @@ void DrawList::add_run(std::uint32_t first_index, std::uint32_t count) {
 
 void DrawList::draw() {
   if (commands_.empty()) return;
-  gl_->NamedBufferData(record_buffer_.name(), GLsizeiptr(records_.size() * sizeof(DrawRecord)),
-                       records_.data(), GL_STREAM_DRAW);
-  gl_->NamedBufferData(command_buffer_.name(), GLsizeiptr(commands_.size() * sizeof(DrawCommand)),
-                       commands_.data(), GL_STREAM_DRAW);
+  give_buffer(*gl_, record_buffer_.name(), records_.size() * sizeof(DrawRecord), records_.data(), GL_STREAM_DRAW);
+  give_buffer(*gl_, command_buffer_.name(), commands_.size() * sizeof(DrawCommand), commands_.data(), GL_STREAM_DRAW);
   gl_->BindVertexArray(array_.name());
   gl_->BindBuffer(GL_DRAW_INDIRECT_BUFFER, command_buffer_.name());
   gl_->MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, GLsizei(commands_.size()),

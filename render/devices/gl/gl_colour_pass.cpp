@@ -8,6 +8,7 @@
 #include "kernel/base/quick_math.h"
 #include "render/colour/frame_fill.h"
 #include "render/colour/view_lamp.h"
+#include "render/gl/gl_traffic.h"
 #include "render/gl/shader.h"
 #include "render/materials/glass.h"
 #include "render/materials/surface_appearance.h"
@@ -47,8 +48,7 @@ GlTexture upload_surface_appearances(const Gl& gl, const std::vector<PatternImag
   const int levels = int(std::lround(quick::log2(double(size)))) + 1;
   gl.TextureStorage3D(texture.name(), levels, GL_RGBA8, size, size, GLsizei(patterns.size()));
   for (std::size_t i = 0; i < patterns.size(); ++i)
-    gl.TextureSubImage3D(texture.name(), 0, 0, 0, GLint(i), size, size, 1, GL_RGBA,
-                         GL_UNSIGNED_BYTE, patterns[i].texels.data());
+    give_image(gl, texture.name(), 0, {0, 0, int(i), size, size, 1}, GL_RGBA, GL_UNSIGNED_BYTE, patterns[i].texels.data());
   gl.GenerateTextureMipmap(texture.name());
   gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -58,8 +58,7 @@ GlTexture upload_surface_appearances(const Gl& gl, const std::vector<PatternImag
 
 GlTexture upload_sky(const Gl& gl, const Sky& sky) {
   GlTexture texture = make_target(gl, GL_RGB32F, sky.side, sky.side);
-  gl.TextureSubImage2D(texture.name(), 0, 0, 0, sky.side, sky.side, GL_RGB, GL_FLOAT,
-                       sky.map.data());
+  give_image(gl, texture.name(), 0, {0, 0, 0, sky.side, sky.side}, GL_RGB, GL_FLOAT, sky.map.data());
   gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   check_gl(gl, "uploading the sky");
@@ -68,8 +67,8 @@ GlTexture upload_sky(const Gl& gl, const Sky& sky) {
 
 GlTexture upload_ground(const Gl& gl, const GroundMap& ground) {
   GlTexture texture = make_target(gl, GL_RG8, GroundMap::kSide, GroundMap::kSide);
-  gl.TextureSubImage2D(texture.name(), 0, 0, 0, GroundMap::kSide, GroundMap::kSide, GL_RG,
-                       GL_UNSIGNED_BYTE, ground.texels.data());
+  give_image(gl, texture.name(), 0, {0, 0, 0, GroundMap::kSide, GroundMap::kSide}, GL_RG, GL_UNSIGNED_BYTE,
+             ground.texels.data());
   gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   check_gl(gl, "uploading the map of the ground");
@@ -218,11 +217,11 @@ void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const Vie
     contact_.draw(view, depth, place.contact(lamp, light), tiles_.first_row,
                   tiles_.last_row);
   if (anew && light.air_table)
-    gl_.TextureSubImage3D(air_table_.name(), 0, 0, 0, 0, AirVolume::kColumns, AirVolume::kRows,
-                          AirVolume::kSlices, GL_RGBA, GL_FLOAT, light.air_table->table().data());
+    give_image(gl_, air_table_.name(), 0, {0, 0, 0, AirVolume::kColumns, AirVolume::kRows, AirVolume::kSlices}, GL_RGBA,
+               GL_FLOAT, light.air_table->table().data());
   const FrameBlock block =
       fill_frame_block(view, light, place.bearer, ground_, texture_size_, exposure);
-  gl_.NamedBufferData(frame_block_.name(), sizeof block, &block, GL_STREAM_DRAW);
+  give_buffer(gl_, frame_block_.name(), sizeof block, &block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
   const GLuint textures[] = {ids.name(),
                              depth.name(),
@@ -273,8 +272,8 @@ void GlColourPass::hand_over(const ViewProjection& view, const SurfaceImages& su
   }
   if (!surfaces.in_raster) {
     if (!ids_) ids_ = make_target(gl_, GL_RG32UI, width, height), depth_ = make_target(gl_, GL_R32F, width, height);
-    gl_.TextureSubImage2D(ids_.name(), 0, 0, 0, width, height, GL_RG_INTEGER, GL_UNSIGNED_INT, surfaces.ids);
-    gl_.TextureSubImage2D(depth_.name(), 0, 0, 0, width, height, GL_RED, GL_FLOAT, surfaces.depth_values.data());
+    give_image(gl_, ids_.name(), 0, {0, 0, 0, width, height}, GL_RG_INTEGER, GL_UNSIGNED_INT, surfaces.ids);
+    give_image(gl_, depth_.name(), 0, {0, 0, 0, width, height}, GL_RED, GL_FLOAT, surfaces.depth_values.data());
   }
   if (surfaces.has_rays()) {
     if (!lens_rays_) {
@@ -282,9 +281,9 @@ void GlColourPass::hand_over(const ViewProjection& view, const SurfaceImages& su
       lens_ = surfaces.lens - 1;
     }
     if (lens_ != surfaces.lens)
-      gl_.TextureSubImage2D(lens_rays_.name(), 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, surfaces.ray_values);
+      give_image(gl_, lens_rays_.name(), 0, {0, 0, 0, width, height}, GL_RGBA, GL_FLOAT, surfaces.ray_values);
     lens_ = surfaces.lens;
-    gl_.TextureSubImage2D(row_poses_.name(), 0, 0, 0, 3, height, GL_RGBA, GL_FLOAT, surfaces.pose_values);
+    give_image(gl_, row_poses_.name(), 0, {0, 0, 0, 3, height}, GL_RGBA, GL_FLOAT, surfaces.pose_values);
   }
   check_gl(gl_, "handing over the surfaces of a view");
 }
@@ -371,7 +370,7 @@ MeteredImage GlColourPass::meter(const ViewProjection& view, const Pose& world_f
   draw_with(kMeter, target, view, world_from_camera, surfaces, light, 1);
   out.stops.resize(std::size_t(out.width) * std::size_t(out.height));
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target.name());
-  gl_.ReadPixels(0, 0, out.width, out.height, GL_RED, GL_FLOAT, out.stops.data());
+  take_pixels(gl_, out.width, out.height, GL_RED, GL_FLOAT, out.stops.data());
   check_gl(gl_, "metering the image");
   return out;
 }
@@ -382,13 +381,12 @@ void GlColourPass::draw(const ViewProjection& view, const Pose& world_from_camer
   resize(view.intrinsics.width, view.intrinsics.height);
   if (!metered) draw_behind(view, world_from_camera, surfaces, light);
   draw_with(0, target_, view, world_from_camera, surfaces, light, exposure, !metered);
-  gl_.Finish();  // so that times are of what they are said to be
 }
 
 void GlColourPass::read(std::vector<std::uint8_t>& rgba) {
   rgba.resize(std::size_t(width_) * std::size_t(height_) * 4);
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
-  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  take_pixels(gl_, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   check_gl(gl_, "reading the image back");
 }
 
@@ -404,7 +402,7 @@ std::vector<float> GlColourPass::draw_linear(const ViewProjection& view,
   draw_with(kLinear, target, view, world_from_camera, surfaces, light, 1);
   std::vector<float> out(std::size_t(width) * std::size_t(height) * 4);
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target.name());
-  gl_.ReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, out.data());
+  take_pixels(gl_, width, height, GL_RGBA, GL_FLOAT, out.data());
   check_gl(gl_, "reading the linear image back");
   return out;
 }

@@ -3,6 +3,7 @@
 #include "render/devices/gl/gl_colour_pass.h"
 #include "render/devices/gl/gl_raster.h"
 #include "render/devices/gl/gl_shadow_pass.h"
+#include "render/gl/gl.h"
 
 namespace rubble {
 
@@ -56,6 +57,11 @@ GlDevice::GlDevice(const GlContextOptions& options) : context_(options) {
                    {"egl_device", gl.egl_device + ": " + gl.why},
                    {"egl_version", gl.egl_version}};
   info_.limits = gl.limits;
+}
+
+DeviceTraffic GlDevice::traffic() const {
+  const GlTraffic& t = context_.traffic();
+  return {t.given, t.taken, t.waits};
 }
 
 std::unique_ptr<DeviceScene> GlDevice::load(const PreparedScene& scene, const LightSet& lights,

@@ -12,6 +12,7 @@ class GlDevice : public Device {
   explicit GlDevice(const GlContextOptions& options = {});
 
   const DeviceInfo& info() const override { return info_; }
+  DeviceTraffic traffic() const override;
   void make_current() override { context_.make_current(); }
   std::unique_ptr<DeviceScene> load(const PreparedScene& scene, const LightSet& lights,
                                     const LightTable& light, const DeviceSceneOptions& options, ThreadPool& pool) override;

@@ -1,14 +1,18 @@
 #include "render/devices/gl/gl_geometry.h"
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 
 #include "kernel/base/error.h"
+#include "render/gl/gl_traffic.h"
 #include "render/materials/paint_layers.h"
 
 namespace rubble {
 
 namespace {
+
+constexpr std::size_t kLightBlock = 64;  // nodes that are handed over together
 
 GlTexture upload_paint_images(const Gl& gl, const PaintLayers& paints) {
   GlTexture texture(gl, GLenum(GL_TEXTURE_2D_ARRAY));
@@ -17,8 +21,8 @@ GlTexture upload_paint_images(const Gl& gl, const PaintLayers& paints) {
   gl.TextureStorage3D(texture.name(), images.levels(), GL_RGBA8, images.size(), images.size(), count);
   for (int i = 0; i < paints.image_count; ++i)
     for (int level = 0; level < images.levels(); ++level)
-      gl.TextureSubImage3D(texture.name(), level, 0, 0, i, images.size() >> level, images.size() >> level, 1,
-                           GL_RGBA, GL_UNSIGNED_BYTE, images.texels(i, level).data());
+      give_image(gl, texture.name(), level, {0, 0, i, images.size() >> level, images.size() >> level, 1}, GL_RGBA,
+                 GL_UNSIGNED_BYTE, images.texels(i, level).data());
   gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   check_gl(gl, "uploading the images of meshes");
@@ -57,18 +61,30 @@ GlGeometry::GlGeometry(const Gl& of, const PreparedScene& scene, SceneTables mad
 
 void GlGeometry::place(const PreparedScene& scene) {
   tables.place(scene);
-  gl.NamedBufferData(placed.name(), GLsizeiptr(tables.placed.size() * sizeof tables.placed[0]), tables.placed.data(),
-                     GL_STREAM_DRAW);
+  give_buffer(gl, placed.name(), tables.placed.size() * sizeof tables.placed[0], tables.placed.data(), GL_STREAM_DRAW);
   check_gl(gl, "moving the pieces");
 }
 
-void GlGeometry::set_light(const LightTable& from, const std::vector<LightRange>* changed) const {
-  if (!changed)
-    gl.NamedBufferData(light.name(), GLsizeiptr(from.size() * sizeof(BakedLight)), from.data(), GL_STREAM_DRAW);
-  else
-    for (const LightRange& range : *changed)
-      gl.NamedBufferSubData(light.name(), GLintptr(range.begin * sizeof(BakedLight)),
-                            GLsizeiptr((range.end - range.begin) * sizeof(BakedLight)), from.data() + range.begin);
+void GlGeometry::give_light(std::size_t begin, std::size_t end) {
+  give_buffer_part(gl, light.name(), begin * sizeof(BakedLight), (end - begin) * sizeof(BakedLight), &light_there_[begin]);
+}
+
+void GlGeometry::set_light(const LightTable& from, const std::vector<LightRange>* changed) {
+  if (!changed || light_there_.size() != from.size()) {
+    light_there_ = from;
+    give_buffer(gl, light.name(), from.size() * sizeof(BakedLight), from.data(), GL_STREAM_DRAW);
+  } else {
+    for (const LightRange& range : *changed) {
+      std::size_t begin = range.end;  // of a run of blocks that differ
+      for (std::size_t i = range.begin; i < range.end; i += kLightBlock) {
+        const std::size_t end = std::min(i + kLightBlock, std::size_t(range.end)), bytes = (end - i) * sizeof(BakedLight);
+        const bool same = std::memcmp(&light_there_[i], &from[i], bytes) == 0;
+        if (!same) std::memcpy(&light_there_[i], &from[i], bytes), begin = std::min(begin, i);
+        if (same && begin < i) give_light(begin, i), begin = range.end;
+      }
+      if (begin < range.end) give_light(begin, range.end);
+    }
+  }
   check_gl(gl, "handing the light over");
 }
 

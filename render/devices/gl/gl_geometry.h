@@ -14,8 +14,8 @@ struct GlGeometry {
   GlGeometry(const Gl& gl, const PreparedScene& scene, SceneTables tables, const LightTable& light);
 
   void place(const PreparedScene& scene);  // where the pieces are now
-  // changed: null: all of it.
-  void set_light(const LightTable& light, const std::vector<LightRange>* changed) const;
+  // changed: null: all of it. Of the ranges, what differs from what is there goes to the card.
+  void set_light(const LightTable& light, const std::vector<LightRange>* changed);
   // In `indices`; triangle: number in the mesh.
   std::uint32_t first_index(std::uint32_t mesh, std::uint32_t triangle) const {
     return 3 * (tables.names.first_triangle[mesh] + triangle);
@@ -28,6 +28,11 @@ struct GlGeometry {
   // See shaders/paint.glsl; nothing where nothing is painted.
   GlBuffer paint;
   GlTexture paint_view, paint_images;
+
+ private:
+  void give_light(std::size_t begin, std::size_t end);
+
+  LightTable light_there_;  // as the card has it
 };
 
 }  // namespace rubble

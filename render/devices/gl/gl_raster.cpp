@@ -5,6 +5,7 @@
 
 #include "kernel/base/error.h"
 #include "render/devices/gl/draw_list.h"
+#include "render/gl/gl_traffic.h"
 
 namespace rubble {
 
@@ -63,7 +64,7 @@ void GlRaster::draw(const std::vector<ClusterRun>& runs) {
 
 const std::vector<float>& GlRaster::depth_so_far() {
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
-  gl_.ReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, values_.data());
+  take_pixels(gl_, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, values_.data());
   return values_;
 }
 
@@ -77,7 +78,7 @@ void GlRaster::finish() {
   const Intrinsics& k = view_->intrinsics;
   block.lens[0] = float(1 / k.fx), block.lens[1] = float(1 / k.fy);
   block.lens[2] = float(k.cx), block.lens[3] = float(k.cy);
-  gl_.NamedBufferData(block_.name(), sizeof block, &block, GL_STREAM_DRAW);
+  give_buffer(gl_, block_.name(), sizeof block, &block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_.name());
   const GLuint textures[] = {ids_.name(), geometry_.vertices_view.name(),
                              geometry_.triangles_view.name(), geometry_.placed_view.name()};
@@ -89,14 +90,14 @@ void GlRaster::finish() {
   gl_.UseProgram(plane_program_.name());
   gl_.BindVertexArray(empty_array_.name());
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RED, GL_FLOAT, values_.data());
+  take_pixels(gl_, width_, height_, GL_RED, GL_FLOAT, values_.data());
   check_gl(gl_, "drawing the triangles");
 }
 
 std::vector<std::uint32_t> GlRaster::read_ids() const {
   std::vector<std::uint32_t> out(values_.size() * 2);
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
-  gl_.ReadPixels(0, 0, width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT, out.data());
+  take_pixels(gl_, width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT, out.data());
   check_gl(gl_, "reading the triangle numbers back");
   return out;
 }

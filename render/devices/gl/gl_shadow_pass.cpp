@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "render/devices/gl/draw_list.h"
+#include "render/gl/gl_traffic.h"
 #include "render/gl/shader.h"
 
 namespace rubble {
@@ -114,7 +115,7 @@ void GlShadowPass::draw_layers(const GlTexture& layers, ShadowPart part, std::si
     if (part != ShadowPart::moving) gl_.ClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &far_value);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
     draw_view(views_.rows[i], part);
-    gl_.Finish();
+    wait_for_all(gl_);
   }
   gl_.Disable(GL_DEPTH_CLAMP);
   check_gl(gl_, "drawing the shadow map");

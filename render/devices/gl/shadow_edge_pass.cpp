@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/gl/gl_traffic.h"
 #include "render/gl/shader.h"
 
 namespace rubble {
@@ -79,8 +80,7 @@ void ShadowEdgePass::find_again(const GlTexture& values, const std::vector<std::
 void ShadowEdgePass::read() {
   const std::size_t words = std::size_t(side_) * std::size_t(side_) * 2;
   std::vector<std::uint32_t> all(words * views_.size());
-  gl_.GetTextureImage(edges_.name(), 0, GL_RG_INTEGER, GL_UNSIGNED_INT, GLsizei(all.size() * sizeof all[0]),
-                      all.data());
+  take_image(gl_, edges_.name(), GL_RG_INTEGER, GL_UNSIGNED_INT, all.size() * sizeof all[0], all.data());
   pyramids_.clear();
   for (std::size_t i = 0; i < views_.size(); ++i) pyramids_.emplace_back(all.data() + i * words, side_);
 }
@@ -93,7 +93,7 @@ void ShadowEdgePass::find_in(const GlTexture& values, std::size_t layer, const s
                           {view.reach_a_depth(),
                            EdgeView::kLeastReach, view.least_step(), 0},
                           {source_layer, along_x, along_y, reach}};
-    gl_.NamedBufferData(block_.name(), sizeof block, &block, GL_STREAM_DRAW);
+    give_buffer(gl_, block_.name(), sizeof block, &block, GL_STREAM_DRAW);
     gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_.name());
   };
   set_block(int(layer), 0, 0);
@@ -124,7 +124,7 @@ void ShadowEdgePass::draw(const GlProgram& program, const GlTexture& source, con
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
   }
   gl_.Disable(GL_SCISSOR_TEST);
-  gl_.Finish();  // before the framebuffer goes
+  wait_for_all(gl_);  // before the framebuffer goes
   check_gl(gl_, "finding the edges of the shadow map");
 }
 

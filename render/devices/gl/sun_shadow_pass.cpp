@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "render/gl/gl_traffic.h"
 #include "render/lighting/lighting.h"
 #include "render/passes/shadow_views.h"
 
@@ -66,10 +67,8 @@ void SunShadowPass::set_blocks(const std::vector<EdgeBlock>& blocks, int width, 
     places[2 * i + 2] = block.place;
     std::memcpy(&places[2 * i + 3], &block.nearest, sizeof block.nearest);
   }
-  gl_.TextureSubImage2D(numbers_.name(), 0, 0, 0, across, down, GL_RED_INTEGER, GL_UNSIGNED_INT,
-                        numbers.data());
-  gl_.TextureSubImage2D(places_.name(), 0, 0, 0, kColumns, rows_, GL_RG_INTEGER, GL_UNSIGNED_INT,
-                        places.data());
+  give_image(gl_, numbers_.name(), 0, {0, 0, 0, across, down}, GL_RED_INTEGER, GL_UNSIGNED_INT, numbers.data());
+  give_image(gl_, places_.name(), 0, {0, 0, 0, kColumns, rows_}, GL_RG_INTEGER, GL_UNSIGNED_INT, places.data());
 }
 
 void SunShadowPass::draw(bool rays) {

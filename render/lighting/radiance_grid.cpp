@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "kernel/base/portable_math.h"
 
@@ -82,11 +83,28 @@ AirGrid::Corners RadianceGrid::corners(const Vec3f& point, const std::vector<std
   return out;
 }
 
-RadianceTerms blend(const std::vector<RadianceTerms>& grid, const AirGrid::Corners& corners) {
+// The first terms; the others are zero.
+template <std::size_t terms>
+RadianceTerms blend_first(const std::vector<RadianceTerms>& grid, const AirGrid::Corners& corners) {
+  typedef float Four __attribute__((vector_size(16)));
+  constexpr std::size_t kFours = (3 * terms + 3) / 4;  // what is too much of the last is still of the terms
+  static_assert(sizeof(RadianceTerms) == 12 * kHarmonics && 4 * kFours <= 3 * kHarmonics);
+  std::array<Four, kFours> sum{};
+  for (std::size_t k = 0; k < 8; ++k) {
+    const char* from = reinterpret_cast<const char*>(grid[corners.at[k]].data());
+    for (std::size_t i = 0; i < kFours; ++i) {
+      Four values;
+      std::memcpy(&values, from + i * sizeof values, sizeof values);
+      sum[i] += values * corners.weight[k];
+    }
+  }
   RadianceTerms out{};
-  for (std::size_t k = 0; k < 8; ++k)
-    for (std::size_t t = 0; t < kHarmonics; ++t) out[t] += grid[corners.at[k]][t] * corners.weight[k];
+  std::memcpy(static_cast<void*>(out.data()), sum.data(), 12 * terms);
   return out;
+}
+
+RadianceTerms blend(const std::vector<RadianceTerms>& grid, const AirGrid::Corners& corners) {
+  return blend_first<kHarmonics>(grid, corners);
 }
 
 // Next to the box what the border's nearest sees; farther away the open surroundings, in which the box with its fog is
@@ -149,6 +167,11 @@ Vec3f illuminance_of(const RadianceTerms& terms, const Vec3f& normal) {
   for (std::size_t l = 0; l < kOrders; ++l) sum += orders[l] * kCosine[l];
   for (int c = 0; c < 3; ++c) sum[c] = std::max(sum[c], 0.0f);
   return sum;
+}
+
+// What the cosine asks for is in the first nine terms.
+Vec3f illuminance_between(const std::vector<RadianceTerms>& grid, const AirGrid::Corners& corners, const Vec3f& normal) {
+  return illuminance_of(blend_first<9>(grid, corners), normal);
 }
 
 }  // namespace rubble

@@ -69,5 +69,7 @@ struct RadianceGrid {
 std::array<Vec3f, kOrders> orders_towards(const RadianceTerms& terms, const Vec3f& direction);
 // Illuminance on a surface of this normal, at least 0; unit: klx
 Vec3f illuminance_of(const RadianceTerms& terms, const Vec3f& normal);
+// The same between the points of a grid.
+Vec3f illuminance_between(const std::vector<RadianceTerms>& grid, const AirGrid::Corners& corners, const Vec3f& normal);
 
 }  // namespace rubble

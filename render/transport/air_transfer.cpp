@@ -78,14 +78,11 @@ void AirTransfer::gather_total(const Sources& sources, ThreadPool& pool) {
       Terms& sum = total_[i];
       for (std::size_t t = 0; t < kTerms; ++t) {
         const Vec3f& direct = sources.direct[i][t];
-        sum[t] = {{direct.x, direct.y, direct.z, 0}};
+        sum[t].c = Four{direct.x, direct.y, direct.z, 0};
       }
       for (std::size_t k = 0; lit_[i] && k < AirLinks::kDirections; ++k) {
-        const Colour &a = ends_in_[k * count + i], &b = air_in_[k * count + i];
-        Colour in;
-        for (std::size_t c = 0; c < 4; ++c) in.c[c] = (a.c[c] + b.c[c]) * kAngle;
-        for (std::size_t t = 0; t < kTerms; ++t)
-          for (std::size_t c = 0; c < 4; ++c) sum[t].c[c] += in.c[c] * harmonics_[k][t];
+        const Four in = (ends_in_[k * count + i].c + air_in_[k * count + i].c) * kAngle;
+        for (std::size_t t = 0; t < kTerms; ++t) sum[t].c += in * harmonics_[k][t];
       }
     }
   });
@@ -105,8 +102,7 @@ void AirTransfer::emit(const AirMatter& air, std::size_t direction, std::vector<
   for (std::size_t i = 0; i < out.size(); ++i) {
     Colour sum;
     for (std::size_t t = 0; t < kTerms; ++t) {
-      const float share = y[t] * air.scattered[i][order_of(t)];
-      for (std::size_t c = 0; c < 4; ++c) sum.c[c] += total_[i][t].c[c] * share;
+      sum.c += total_[i][t].c * (y[t] * air.scattered[i][order_of(t)]);
     }
     sum.c[3] = air.extinction[i];
     out[i] = sum;
@@ -127,18 +123,17 @@ AirTransfer::Colour AirTransfer::between(const std::vector<Colour>& grid, const 
   const std::ptrdiff_t off[8] = {0, 1, row, row + 1, layer, layer + 1, layer + row, layer + row + 1};
   Colour out;
   if (seen == 255) {
-    for (std::size_t k = 0; k < 8; ++k)
-      for (std::size_t c = 0; c < 4; ++c) out.c[c] += corner[off[k]].c[c] * weight[k];
+    for (std::size_t k = 0; k < 8; ++k) out.c += corner[off[k]].c * weight[k];
     return out;
   }
   float sum = 0;
   for (std::size_t k = 0; k < 8; ++k) {
     if (!(seen >> k & 1u)) continue;
     sum += weight[k];
-    for (std::size_t c = 0; c < 4; ++c) out.c[c] += corner[off[k]].c[c] * weight[k];
+    out.c += corner[off[k]].c * weight[k];
   }
   if (sum < kLeastShare) return grid[otherwise];
-  for (float& c : out.c) c *= 1 / sum;
+  out.c *= 1 / sum;
   return out;
 }
 
@@ -166,10 +161,11 @@ void AirTransfer::follow(const AirMatter& air, const Sources& sources, std::size
       links_.cut(length, [&](float middle, float step) {
         const Colour here = between(*emitted, from + way * middle, *seen++, i);
         const float through = quick::exp(-here.c[3] * step), share = passed * (1 - through);
-        for (int c = 0; c < 3; ++c) sum.c[c] += here.c[c] * share;
+        sum.c += here.c * share;
         passed *= through;
       });
     }
+    sum.c[3] = 0;
     air_in_[first + i] = sum;
     Vec3f far;
     if (end.point == AirLinks::kSky) {
@@ -183,7 +179,7 @@ void AirTransfer::follow(const AirMatter& air, const Sources& sources, std::size
       }
     }
     far *= passed;
-    ends_in_[first + i] = {{far.x, far.y, far.z, 0}};
+    ends_in_[first + i].c = Four{far.x, far.y, far.z, 0};
   }
 }
 
@@ -202,13 +198,12 @@ void AirTransfer::project(const std::vector<Colour>& incoming, std::vector<Radia
   out.resize(count);
   pool.run(int(count), 256, [&](int begin, int end) {
     for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i) {
-      out[i] = {};
-      if (!lit_[i]) continue;
-      for (std::size_t k = 0; k < AirLinks::kDirections; ++k) {
-        const Colour& in = incoming[k * count + i];
-        const Vec3f light(in.c[0] * kAngle, in.c[1] * kAngle, in.c[2] * kAngle);
-        for (std::size_t t = 0; t < kHarmonics; ++t) out[i][t] += light * harmonics_[k][t];
+      std::array<Four, kHarmonics> sum{};
+      for (std::size_t k = 0; lit_[i] && k < AirLinks::kDirections; ++k) {
+        const Four light = incoming[k * count + i].c * kAngle;
+        for (std::size_t t = 0; t < kHarmonics; ++t) sum[t] += light * harmonics_[k][t];
       }
+      for (std::size_t t = 0; t < kHarmonics; ++t) out[i][t] = {sum[t][0], sum[t][1], sum[t][2]};
     }
   });
 }

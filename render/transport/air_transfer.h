@@ -21,8 +21,9 @@ AirMatter turning_matter(const Air& air, const AirGrid& grid);
 
 class AirTransfer {
  public:
-  struct alignas(16) Colour {
-    float c[4] = {};
+  typedef float Four __attribute__((vector_size(16)));
+  struct Colour {
+    Four c{};  // red, green, blue, and another number or 0
   };
   struct Sources {
     const Vec3f* sky = nullptr;         // radiance by direction of the links; none: black

@@ -188,7 +188,7 @@ FogLight::Change FogLight::change_at(const Vec3f& surface, const Vec3f& normal, 
   const Vec3f before = light(clear_), ends = light(day_.ends);
   Change out;
   for (int c = 0; c < 3; ++c) out.factor[c] = before[c] > 0 ? std::min(ends[c] / before[c], kMostFactor) : 1.0f;
-  out.air = illuminance_of(blend(day_.air, corners), normal);
+  out.air = illuminance_between(day_.air, corners, normal);
   return out;
 }
 
@@ -275,7 +275,7 @@ Vec3f FogLight::lamp_illuminance(const Vec3f& point, const Vec3f& normal) const 
   const float off = usual_off();
   const Vec3f p = point + normal * off;
   if (norm(p - grid.nearest(p)) > off) return {};
-  return illuminance_of(blend(lamp_.air, lamp_.shown(grid.about(p))), normal);
+  return illuminance_between(lamp_.air, lamp_.shown(grid.about(p)), normal);
 }
 
 }  // namespace rubble

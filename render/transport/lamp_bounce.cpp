@@ -32,6 +32,8 @@ Vec3f direction_of(int x, int y) {
   return normalized(d);
 }
 
+Vec3f colour_of(const AirTransfer::Colour& c) { return {c.c[0], c.c[1], c.c[2]}; }
+
 // What is lit in neither table takes no memory in the second one, either.
 void copy_changed(const LightTable& from, LightTable& to) {
   constexpr std::size_t kChunk = 512;  // a page of memory
@@ -126,7 +128,7 @@ void LampBounce::light_points() {
     if (away > distance_towards(way) * (1 + kSlack) + kNear) return;
     const float kept = kept_at(away) * quick::exp(-extinction_ * away) * facing / (away * portable::kPiF);
     const Vec3f light = multiply(links_.albedos[i], lamp_.illuminance(lamp_.position, position)) * kept;
-    radiance_[i] = {{light.x, light.y, light.z, 0}};
+    radiance_[i].c = AirTransfer::Four{light.x, light.y, light.z, 0};
   });
 }
 
@@ -195,10 +197,10 @@ Vec3f LampBounce::gather_colour(std::size_t point) const {
     if (!(lit_[sender / 64] >> (sender % 64) & 1)) continue;
     const Light& light = radiance_[sender];
     const float share = extinction_ > 0 ? passes(point, sender) : 1;
-    for (std::size_t c = 0; c < 4; ++c) sum.c[c] += light.c[c] * share;
+    sum.c += light.c * share;
   }
   const float scale = rays > 0 ? portable::kPiF / float(rays) : 0;
-  return Vec3f(sum.c[0], sum.c[1], sum.c[2]) * scale;
+  return colour_of(sum) * scale;
 }
 
 // By all rays, and with the direction.
@@ -211,8 +213,7 @@ LampBounce::Arrived LampBounce::gather(std::size_t point) const {
     const std::uint32_t sender = links_.sender(links[k]);
     rays += sender != BakeLinks::kNone;
     if (sender >= BakeLinks::kNone) continue;
-    const float* colour = radiance_[sender].c;
-    Vec3f light(colour[0], colour[1], colour[2]);
+    Vec3f light = colour_of(radiance_[sender]);
     if (light.y <= 0) continue;
     const Vec3f way = links_.places[sender].position - here.position;
     const float away = std::max(norm(way), 1e-4f);
@@ -239,8 +240,7 @@ float LampBounce::share_again() const {
       Sums& sums = of_pieces[std::size_t(k)];
       const std::size_t first = first_point_[seen_[std::size_t(k)]], count = count_points(seen_[std::size_t(k)]);
       for (std::size_t i = first; i < first + count; ++i) {
-        const float* direct = radiance_[i].c;
-        sums.before += double(luminance(Vec3f(direct[0], direct[1], direct[2])));
+        sums.before += double(luminance(colour_of(radiance_[i])));
         sums.after += double(luminance(multiply(links_.albedos[i], once_[i])));
       }
     }
@@ -258,7 +258,7 @@ void LampBounce::pass_on() {
   const float scale = 1 / (portable::kPiF * (1 - share_again()));
   for_seen([&](std::size_t i) {
     const Vec3f more = multiply(links_.albedos[i], once_[i]) * scale;
-    for (int c = 0; c < 3; ++c) radiance_[i].c[c] += more[c];
+    radiance_[i].c += AirTransfer::Four{more.x, more.y, more.z, 0};
   });
   pool_.run(int(shown_points_.size()), 256, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
@@ -323,7 +323,7 @@ float LampBounce::most_radiance() const {
   for (const std::uint32_t piece : seen_) {
     const std::size_t first = first_point_[piece];
     for (std::size_t i = first; i < first + count_points(piece); ++i)
-      most = std::max(most, *std::max_element(radiance_[i].c, radiance_[i].c + 3));
+      most = std::max({most, radiance_[i].c[0], radiance_[i].c[1], radiance_[i].c[2]});
   }
   return most / (1 - kMostAgain);
 }

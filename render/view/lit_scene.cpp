@@ -158,7 +158,7 @@ void LitScene::light_air(std::int64_t stamp_ns) {
   if (!draft && !medium.clear() && !fog_light_ && bake_) {
     FogLight::Radiance radiance;
     radiance.reserve(bake_->radiance().size());
-    for (const Vec3f& r : bake_->radiance()) radiance.push_back({{r.x, r.y, r.z, 0}});
+    for (const Vec3f& r : bake_->radiance()) radiance.push_back({AirTransfer::Four{r.x, r.y, r.z, 0}});
     fog_light_ = std::make_unique<FogLight>(resting_->scene, resting_->rays.solid(), air_box(scene.bounds), resting_light,
                                             std::move(radiance), pool);
   }

@@ -160,7 +160,7 @@ TEST(AirTransfer, KeepsEvenLightAndWeakensItByTheLaw) {
   const std::size_t count = transfer.links().grid.count();
   std::size_t points = 0;
   for (const PlacedMesh& piece : prepared.placed) points += prepared.meshes[piece.mesh].bake_points.size();
-  const std::vector<AirTransfer::Colour> walls(points, {{1, 1, 1, 0}});
+  const std::vector<AirTransfer::Colour> walls(points, AirTransfer::Colour{AirTransfer::Four{1, 1, 1, 0}});
   const std::vector<Vec3f> even(count, Vec3f(1, 1, 1));
   AirTransfer::Sources sources;
   sources.surfaces = walls.data(), sources.direct.resize(count), sources.usual = even;

@@ -100,12 +100,7 @@ ExitCode run(int argc, char** argv) {
                  "Bake once more by that many rays in other directions, and print how far the light of nodes is apart")
       ->check(CLI::Range(8, 1024));
   app.add_option("--threads", request.threads, "0: all processors")->check(CLI::Range(0, 1024));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
-  }
-  return bench_all(request);
+  return parse_and_run(app, argc, argv, [&] { return bench_all(request); });
 }
 
 }  // namespace

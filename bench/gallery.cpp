@@ -131,12 +131,7 @@ ExitCode run(int argc, char** argv) {
   app.add_option("--only", request.only, "Only pictures whose name has this in it");
   app.add_option("--section", request.section, "Only pictures of the section with this title");
   app.add_option("--threads", request.threads, "0: all processors")->check(CLI::Range(0, 1024));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
-  }
-  return draw(request);
+  return parse_and_run(app, argc, argv, [&] { return draw(request); });
 }
 
 }  // namespace

@@ -1,9 +1,19 @@
 #include "bench/program.h"
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 
 namespace rubble {
+
+ExitCode parse_and_run(CLI::App& app, int argc, char** argv, const std::function<ExitCode()>& work) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
+  }
+  return work();
+}
 
 int run_program(const char* name, const std::function<ExitCode()>& run) {
   try {

@@ -214,12 +214,7 @@ ExitCode run(int argc, char** argv) {
   app.add_flag("--split", request.split,
                "With --csv also processor time, each pass (elapsed/processor), how often a frame waits for the device, what it "
                "hands over and takes back, the first frame after the start (s), peak memory and the calibration of the machine");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
-  }
-  return bench(request);
+  return parse_and_run(app, argc, argv, [&] { return bench(request); });
 }
 
 }  // namespace

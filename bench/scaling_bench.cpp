@@ -92,12 +92,7 @@ ExitCode run(int argc, char** argv) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   app.add_option("--seed", request.seed, "Seed of the piles")->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
-  }
-  return bench(request);
+  return parse_and_run(app, argc, argv, [&] { return bench(request); });
 }
 
 }  // namespace

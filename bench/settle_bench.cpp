@@ -162,12 +162,7 @@ ExitCode run(int argc, char** argv) {
       ->check(CLI::Range(1, 1000000));
   app.add_flag("--no-sleep", request.no_sleep, "With --steps: nothing falls asleep");
   app.add_flag("--csv", request.csv, "Lines of comma-separated figures below a line of names");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
-  }
-  return bench(request);
+  return parse_and_run(app, argc, argv, [&] { return bench(request); });
 }
 
 }  // namespace

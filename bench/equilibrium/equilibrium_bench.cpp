@@ -208,12 +208,7 @@ ExitCode run(int argc, char** argv) {
                "Instead print what each layer of the first pile costs: steps, pieces awake, times of the stages, as "
                "comma-separated lines");
   app.add_flag("--one", request.one, "Print the record of the first pile as JSON");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
-  }
-  return bench(request);
+  return parse_and_run(app, argc, argv, [&] { return bench(request); });
 }
 
 }  // namespace

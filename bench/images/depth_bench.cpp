@@ -125,12 +125,7 @@ ExitCode run(int argc, char** argv) {
   app.add_flag("--raw", request.raw, "Without the filter of the reference's noise");
   app.add_option("--pictures", request.pictures, "Also write PREFIXruin_depth_reference.png and _fast.png");
   app.add_option("--threads", request.threads, "0: all processors")->check(CLI::Range(0, 1024));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
-  }
-  return bench(request);
+  return parse_and_run(app, argc, argv, [&] { return bench(request); });
 }
 
 }  // namespace

@@ -90,12 +90,7 @@ ExitCode run(int argc, char** argv) {
   app.add_option("--regions", request.regions, "Regions across and down")->check(CLI::Range(1, 64))
       ->capture_default_str();
   app.add_flag("--csv", request.csv, "Comma-separated values");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
-  }
-  return measure(request);
+  return parse_and_run(app, argc, argv, [&] { return measure(request); });
 }
 
 }  // namespace

@@ -72,12 +72,7 @@ ExitCode run(int argc, char** argv) {
                  "All surfaces are grey mirrors of this roughness, and views are called NAME_mirror; 0: matt")
       ->check(CLI::Range(0.0, 1.0))->capture_default_str();
   app.add_option("--threads", request.options.threads, "0: all processors")->check(CLI::Range(0, 1024));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
-  }
-  return bench(request);
+  return parse_and_run(app, argc, argv, [&] { return bench(request); });
 }
 
 }  // namespace

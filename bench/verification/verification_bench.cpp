@@ -76,6 +76,15 @@ ExitCode run_list(const Request& request) {
   return stop_requested() ? ExitCode::stopped : ExitCode::failure;
 }
 
+ExitCode print_one(Request request) {
+  const std::string& work = request.works.front();
+  const Variant usual = variants_of(work).front();
+  if (request.variant.step_hz == 0) request.variant.step_hz = usual.step_hz;
+  if (request.variant.substeps == 0) request.variant.substeps = usual.substeps;
+  std::printf("%s\n", measure(work, parse_seeds(request.seeds, "--seeds").front(), request.variant, 1).dump().c_str());
+  return ExitCode::done;
+}
+
 ExitCode run(int argc, char** argv) {
   CLI::App app{"Settles the same piles and ruins, and drives the same robots, at other steps and with other numbers of sweeps; "
                "bench/verification/page.py makes tables of the records."};
@@ -91,18 +100,7 @@ ExitCode run(int argc, char** argv) {
   app.add_flag("--one", request.one, "Print the record of the first work and seed as JSON, with --hz and --substeps");
   app.add_option("--hz", request.variant.step_hz, "Steps a second")->check(CLI::Range(30, 1000));
   app.add_option("--substeps", request.variant.substeps, "Sweeps in a step")->check(CLI::Range(1, 64));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
-  }
-  if (!request.one) return run_list(request);
-  const std::string& work = request.works.front();
-  const Variant usual = variants_of(work).front();
-  if (request.variant.step_hz == 0) request.variant.step_hz = usual.step_hz;
-  if (request.variant.substeps == 0) request.variant.substeps = usual.substeps;
-  std::printf("%s\n", measure(work, parse_seeds(request.seeds, "--seeds").front(), request.variant, 1).dump().c_str());
-  return ExitCode::done;
+  return parse_and_run(app, argc, argv, [&] { return request.one ? print_one(request) : run_list(request); });
 }
 
 }  // namespace

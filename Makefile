@@ -191,7 +191,7 @@ verification: build/release/build.ninja
 	@tools/install_packages.sh tools/packages-pictures.txt
 	cmake --build --preset release --target verification_bench
 	build/release/verification_bench --jobs 2 --out build/verification.jsonl
-	bench/verification/page.py build/verification.jsonl
+	/usr/bin/python3 bench/verification/page.py build/verification.jsonl
 
 # Not part of any suite: it installs compilers, builds the kernel fifteen times, and runs the suite of missions six times.
 # DETERMINISM_OPTIONS: see tools/determinism_matrix.sh, as in DETERMINISM_OPTIONS=--missions.

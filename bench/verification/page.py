@@ -147,28 +147,29 @@ def draw(works, path):
         for panel in row[len(names):]:
             panel.axis("off")
     handles, labels = panels[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower right", fontsize=9)
-    figure.tight_layout()
-    figure.savefig(path, dpi=110)
+    figure.legend(handles, labels, loc="upper center", ncol=2, fontsize=9)
+    figure.tight_layout(rect=(0, 0, 1, 0.98))
+    figure.savefig(path, dpi=80)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("records")
     parser.add_argument("--print", action="store_true", help="print the tables; write nothing")
+    parser.add_argument("--commit", help="that was measured (default: HEAD)")
     request = parser.parse_args()
     works = {work: usual_first(variants) for work, variants in load(request.records).items()}
     seeds = min(len(m["cpu_s"]) for variants in works.values() for m in variants.values())
     compared, agree = counts(works)
     rested = sum(int(m["settled"].sum()) for variants in works.values() for m in variants.values())
     runs = sum(len(m["settled"]) for variants in works.values() for m in variants.values())
-    commit = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "--short=8", "HEAD"], stdout=subprocess.PIPE, text=True).stdout.strip()
+    commit = request.commit or subprocess.run(["git", "-C", str(ROOT), "rev-parse", "--short=8", "HEAD"], stdout=subprocess.PIPE, text=True).stdout.strip()
     text = ("![Means over the seeds with their 95 %% intervals](../pictures/verification.png)\n\n%d runs of %d seeds at %s; %d came to rest. Of %d comparisons %d agree with the finest; the table has the others.\n\n%s\n"
             % (runs, seeds, commit, rested, compared, agree, table(works)))
     if request.print:
         print(text)
         return
-    document_marks.write_between_marks(str(PAGE), "verification", text)
+    document_marks.write_between_marks(str(PAGE), "verification", text, request.commit)
     draw(works, PICTURE)
 
 

@@ -199,6 +199,10 @@ class Dataset:
         """Whether what a camera sees may be in no export: robots, and what stands about the pile."""
         return bool(self.scenario["robots"]) or self.scenario["surroundings"]["type"] != "none"
 
+    def warns(self, text):
+        """Whether the program has said so."""
+        return any(text in warning for warning in self.manifest["warnings"])
+
     def flight_frames(self, camera):
         """Numbers of the frames in which the pile rests."""
         count = len(camera.poses[0])

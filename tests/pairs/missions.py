@@ -163,7 +163,7 @@ def add_robots(mission, special, row):
     if not robots:
         return robots
     for robot in robots:
-        if row["building"] == "furnished":
+        if row["building"] == "furnished" or row["building"] != "none" and row["cause"] != "none":
             robot["position"] = [-10 if row["surroundings"] == "none" else -7.4] + robot["position"][1:]  # of what falls off it
         kind = robot.get("model") or robot["name"]
         drive, told = COMMANDS[kind]

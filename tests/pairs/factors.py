@@ -52,7 +52,7 @@ CAUSES = {
     "overload": {"@cause": {"overloaded_floor": 0, "overload": 2500}},
     "shake": {"@cause": {"shake": 9, "shake_seconds": 2, "weak_storey": 0, "weakness": 0.1}},
     "accelerogram": {"@cause": {"accelerogram": [0, 3, -5, 8, -6, 4, -2, 1, 0], "accelerogram_step": 0.2, "shake": 8, "weak_storey": 0, "weakness": 0.1}},
-    "blast": {"@cause": {"blast": 40000, "blast_at": [-2.5, 0, 0.8]}},
+    "blast": {"@cause": {"blast": 12000, "blast_at": [-2.5, 0, 0.8]}},
     "vehicle": {"@cause": {"vehicle": "@vehicle"}},
     "sinking": {"@cause": {"sinking": "@sinking"}},
 }

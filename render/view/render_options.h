@@ -40,7 +40,7 @@ struct PassTime {
 struct RenderTimes {
   PassTime visibility;  // which triangle each pixel shows
   PassTime resolve;     // colours
-  PassTime read;        // the image back from the device
+  PassTime read;        // the image back from the device, which may have to draw it first
   PassTime finish;      // smooth edges
   std::size_t triangles = 0;  // drawn
 };

@@ -146,6 +146,8 @@ def add_pile(mission, special, row):
             building["cause"] = cause
             put(mission, "settle.final_time_limit", 60)
         more += "local building = rubble.building " + to_lua(building) + "\n"
+        if row["pile"] == "placed":  # not in a wall that may stand
+            more += "for _, item in ipairs(pile.placed) do item.position[2] = item.position[2] - 6 end\n"
         # The two ways in which a building and other pieces come into one pile.
         more += "pile = rubble.join(pile, building)\n" if "@pile" in special else "pile.building = building.building\n"
     if "@terrain" in special:

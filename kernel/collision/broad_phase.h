@@ -70,9 +70,8 @@ class BroadPhase {
     double cells() const;
   };
   static constexpr double kCell = 0.6;  // of the fine grid; unit: m; about the size of a piece
-  // Cells of the coarse grids; unit: m.
-  static constexpr int kCoarse = 3;
-  static constexpr double kCoarseCells[kCoarse] = {2.4, 9.6, 38.4};
+  static constexpr int kCoarse = 3;     // coarse grids
+  static constexpr double kCoarseCells[kCoarse] = {2.4, 9.6, 38.4};  // unit: m
   // Where an item is, if not in a coarse grid.
   static constexpr std::uint8_t kFine = 255, kNoGrid = kCoarse;
 

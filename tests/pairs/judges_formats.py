@@ -105,7 +105,7 @@ def compare(wanted, found, what):
 
 def colmap_eye(data, camera):
     """The folder of the pictures of the camera, the left ones of a pair, below colmap/images."""
-    parts = [camera.name] if data.scenario["cameras"] else []
+    parts = [camera.name] if len(data.cameras) > 1 else []
     return "/".join(parts + (["left"] if camera.settings.get("stereo_baseline") else []))
 
 

@@ -157,10 +157,11 @@ ExitCode run(int argc, char** argv) {
                  "Instead settle beside so many busy loops, in turn on one thread and on --threads (two at least), "
                  "--repeat times each: median times and their ratio, as comma-separated lines")
       ->check(CLI::Range(0, 1024));
-  app.add_option("--steps", request.steps,
-                 "Instead make so many steps with all pieces from the start, heights as in the file; as other engines' benches")
-      ->check(CLI::Range(1, 1000000));
-  app.add_flag("--no-sleep", request.no_sleep, "With --steps: nothing falls asleep");
+  CLI::Option* steps =
+      app.add_option("--steps", request.steps,
+                     "Instead make so many steps with all pieces from the start, heights as in the file; as other engines' benches")
+          ->check(CLI::Range(1, 1000000));
+  app.add_flag("--no-sleep", request.no_sleep, "With --steps: nothing falls asleep")->needs(steps);
   app.add_flag("--csv", request.csv, "Lines of comma-separated figures below a line of names");
   return parse_and_run(app, argc, argv, [&] { return bench(request); });
 }

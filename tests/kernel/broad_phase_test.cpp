@@ -59,7 +59,7 @@ TEST(BroadPhase, FindsWhatASearchThroughAllBoxesFinds) {
   }
 }
 
-// The order of pairs is part of a world's result, so it must not depend on how large items are found.
+// The order of pairs depends on the order of the calls alone, so not on how large items are found.
 TEST(BroadPhase, LargeItemsComeInTheOrderOfTheirListWhetherFewOrMany) {
   BroadPhase few, many;
   const Aabb large{{-5, -5, 0}, {5, 5, 5}}, small{{0, 0, 0}, {0.1, 0.1, 0.1}};

@@ -199,9 +199,10 @@ class Dataset:
         """Whether what a camera sees may be in no export: robots, and what stands about the pile."""
         return bool(self.scenario["robots"]) or self.scenario["surroundings"]["type"] != "none"
 
-    def warns(self, text):
-        """Whether the program has said so."""
-        return any(text in warning for warning in self.manifest["warnings"])
+    def is_inside(self, camera):
+        """Whether the program has warned that this camera is inside a piece; it names cameras that have names."""
+        starts = ("the camera is inside", "camera `%s`: the camera is inside" % camera.name)
+        return any(warning.startswith(starts) for warning in self.manifest["warnings"])
 
     def flight_frames(self, camera):
         """Numbers of the frames in which the pile rests."""

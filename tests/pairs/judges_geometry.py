@@ -38,7 +38,7 @@ def depth_meets_geometry(data):
         return
     for camera in data.cameras:
         depths, rounding = camera.exact_depth()
-        if depths is None or data.warns("camera `%s`: the camera is inside" % camera.name):  # there is no picture of a piece from within
+        if depths is None or data.is_inside(camera):  # there is no picture of a piece from within
             continue
         pieces, _ = camera.frames_of("instance")
         stamps, positions, rotations = camera.poses

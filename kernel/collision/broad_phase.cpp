@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kEnlarge = 0.03;  // boxes stay as they are while a piece moves by less; unit: m
 constexpr std::size_t kFineBuckets = 1u << 14, kCoarseBuckets = 1u << 12;
-constexpr double kMostFine = 64;   // what covers more cells of the fine grid goes into a coarser one; unit: cell
+constexpr double kMostFine = 64;    // what covers more cells of the fine grid goes into a coarser one; unit: cell
 constexpr double kMostCoarse = 12;   // likewise of those, so that an item is about as large as a cell; unit: cell
 constexpr std::size_t kFewLarge = 32;  // so many are looked through without a grid
 

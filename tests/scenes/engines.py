@@ -11,6 +11,8 @@ import sys
 import time
 from pathlib import Path
 
+from results import Result
+
 
 def read_scene(folder):
     return json.loads((folder / "scene.json").read_text())
@@ -71,7 +73,8 @@ def run_mujoco(folder, seconds):
 
 
 def run_mujoco_drive(folder, seconds):
-    """The rover of the pile drives forwards: its wheels are motors of velocity. It drives against pieces, and over them."""
+    """The rover of the pile drives forwards for 5 s at least: its wheels are motors of velocity. It drives against pieces, and
+    over them."""
     import mujoco
     model = mujoco.MjModel.from_xml_path(str(folder / "mjcf/pile.xml"))
     data = mujoco.MjData(model)
@@ -87,7 +90,7 @@ def run_mujoco_drive(folder, seconds):
         name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_ACTUATOR, a)
         if name.startswith("rover/"):
             data.ctrl[a] = 5.0  # unit: rad/s
-    while data.time < seconds:
+    while data.time < max(seconds, 5):
         mujoco.mj_step(model, data)
         highest = max(highest, data.xpos[base][2])
         for contact in data.contact[:data.ncon]:
@@ -279,5 +282,5 @@ def run_usd(folder, _seconds):
 
 
 if __name__ == "__main__":
-    engine, folder, seconds = sys.argv[1], Path(sys.argv[2]), float(sys.argv[3])
-    print(json.dumps(globals()["run_" + engine](folder, seconds)))
+    engine, folder, seconds, result = sys.argv[1], Path(sys.argv[2]), float(sys.argv[3]), Result()
+    result.write(globals()["run_" + engine](folder, seconds))

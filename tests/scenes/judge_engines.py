@@ -124,11 +124,11 @@ def main():
             try:
                 words = [HERE / "readers.py", engine, export] if engine in READERS else [HERE / "engines.py", engine, export, options.seconds]
                 done = run(interpreters[engine], *words, limit=options.limit)
-                result = json.loads(done.stdout.splitlines()[-1]) if done.returncode == 0 else {
+                result = json.loads(done.stdout) if done.returncode == 0 else {
                     "failed": (done.stderr.strip().splitlines() or ["no reason given"])[-1][:200]}
             except subprocess.TimeoutExpired:
                 result = {"failed": f"not done after {options.limit} s"}
-            except (json.JSONDecodeError, IndexError):
+            except json.JSONDecodeError:
                 result = {"failed": "no result: " + done.stdout[-200:]}
             wrong = wrong or "failed" in result or bool(result.get("errors"))
             lines.append(row(pile, engine, result))

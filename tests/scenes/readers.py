@@ -11,6 +11,8 @@ import sys
 import time
 from pathlib import Path
 
+from results import Result
+
 
 FIRST_FINE = 10_000_000  # the smallest number in `instance` of what is no piece
 CONVEX = 1e-3  # of the volume of a convex part: faces of several corners, which are nearly flat, are cut into triangles
@@ -178,8 +180,6 @@ def read_bullet_sdf(folder, errors):
 
 
 if __name__ == "__main__":
-    reader, place, began, wrong = sys.argv[1], Path(sys.argv[2]), time.time(), []
+    reader, place, began, wrong, result = sys.argv[1], Path(sys.argv[2]), time.time(), [], Result()
     said = globals()["read_" + reader](place, wrong)
-    sys.stdout.flush()
-    # After a new line: PyBullet's warnings have none.
-    print("\n" + json.dumps({**said, "errors": wrong, "loaded_s": round(time.time() - began, 1)}))
+    result.write({**said, "errors": wrong, "loaded_s": round(time.time() - began, 1)})

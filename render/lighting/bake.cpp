@@ -92,9 +92,9 @@ const AirLight& LightBake::air() {
     air = bake_air({scene_, light_, rays,
                     [&](std::uint32_t triangle) { return baker_->triangle_radiance(rays.triangle(triangle)); },
                     options_.threads});
-    CacheWriter to;
-    to.put(air.origin), to.put(air.cell), to.put(air.size), to.put(air.radiance), to.put(air.direct);
-    cache_.store(kind, key_, to.bytes());
+    cache_.store(kind, key_, [&air](CacheWriter& to) {
+      to.put(air.origin), to.put(air.cell), to.put(air.size), to.put(air.radiance), to.put(air.direct);
+    });
   }
   air_ = std::make_unique<AirLight>(std::move(air));
   return *air_;
@@ -112,10 +112,7 @@ bool LightBake::restore_solution() {
 }
 
 void LightBake::keep_solution() const {
-  if (cache_.folder().empty()) return;
-  CacheWriter to;
-  baker_->save(to);
-  cache_.store("light_solution", key_, to.bytes());
+  cache_.store("light_solution", key_, [this](CacheWriter& to) { baker_->save(to); });
 }
 
 // Their numbers, then their nodes one after the other.
@@ -145,16 +142,16 @@ void LightBake::restore_pieces() {
 void LightBake::keep_pieces() const {
   if (cache_.folder().empty() || known_count_ == kept_count_) return;
   std::vector<std::uint32_t> pieces;
-  std::vector<BakedLight> light;
+  std::uint64_t count = 0;
   for (std::uint32_t piece = 0; piece < known_.size(); ++piece) {
     if (!known_[piece]) continue;
     pieces.push_back(piece);
-    const auto first = nodes_.begin() + scene_.placed[piece].first_light;
-    light.insert(light.end(), first, first + std::ptrdiff_t(node_count(piece)));
+    count += node_count(piece);
   }
-  CacheWriter to;
-  to.put(pieces), to.put(light);
-  cache_.store("lit_pieces", key_, to.bytes());
+  cache_.store("lit_pieces", key_, [&](CacheWriter& to) {
+    to.put(pieces), to.put(count);
+    for (const std::uint32_t piece : pieces) to.put_values(&nodes_[scene_.placed[piece].first_light], node_count(piece));
+  });
 }
 
 std::size_t LightBake::node_count(std::uint32_t piece) const {

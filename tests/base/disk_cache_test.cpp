@@ -50,6 +50,23 @@ TEST_F(DiskCacheTest, GivesBackWhatWasStored) {
   EXPECT_EQ(cache.find("thing", key_of(2)), "");
 }
 
+// Small values, arrays and parts of arrays, some larger than what is collected before it is written.
+TEST_F(DiskCacheTest, AnEntryThatIsWrittenInPartsIsThatOfItsBytes) {
+  const auto write = [](CacheWriter& to) {
+    for (int i = 0; i < 30000; ++i) to.put(i);
+    const std::vector<double> values(20000, 0.25);
+    to.put(values), to.put('x'), to.put_values(values.data(), 3), to.put(std::vector<int>{});
+  };
+  CacheWriter whole;
+  write(whole);
+  const DiskCache cache(folder_.string());
+  ASSERT_TRUE(cache.store("thing", key_of(1), write));
+  EXPECT_EQ(cache.find("thing", key_of(1)), whole.bytes());
+  EXPECT_FALSE(DiskCache(folder_.string(), 100000).store("thing", key_of(2), write));  // larger than the bound
+  EXPECT_EQ(files().size(), 1u);
+  EXPECT_FALSE(DiskCache().store("thing", key_of(1), write));
+}
+
 TEST_F(DiskCacheTest, ADamagedEntryIsAbsentWhateverByteIsWrong) {
   const DiskCache cache(folder_.string());
   ASSERT_TRUE(cache.store("thing", key_of(1), "some bytes"));

@@ -101,7 +101,7 @@ class TrainingTest(unittest.TestCase):
     def test_it_sees_more_of_the_void_than_at_first(self):
         with tempfile.TemporaryDirectory() as folder:
             weights, curve = os.path.join(folder, "weights.npz"), os.path.join(folder, "curve.csv")
-            subprocess.run(["/usr/bin/python3", f"{FOLDER}/train.py", "scripts/search.lua", weights, "--steps", "60000",
+            subprocess.run(["/usr/bin/python3", f"{FOLDER}/train.py", "scripts/search.lua", weights, "--steps", "200000",
                             "--piles", "101..104", "--curve", curve], check=True)
             with open(curve) as file:
                 rows = list(csv.DictReader(file))

@@ -10,7 +10,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
+#include "kernel/base/error.h"
 #include "kernel/base/read_file.h"
 #include "kernel/base/system/output_files.h"
 
@@ -21,6 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr char kMagic[8] = {'R', 'B', 'L', 'C', 'A', 'C', 'H', '1'};
+constexpr std::size_t kBlock = 1 << 16;  // unit: byte
 constexpr double kTrimmedTo = 0.8;  // of the bound, so that not every entry has to trim
 
 struct Header {
@@ -30,12 +33,12 @@ struct Header {
   std::uint64_t checksum;
 };
 
-Header make_header(std::string_view kind, const std::string& key, std::string_view bytes) {
+Header make_header(std::string_view kind, const std::string& key, std::uint64_t size, std::uint64_t checksum) {
   Header header{};
   std::memcpy(header.magic, kMagic, sizeof kMagic);
   header.name_hash = hash64(std::string(kind) + "/" + key);
-  header.size = bytes.size();
-  header.checksum = hash64(bytes);
+  header.size = size;
+  header.checksum = checksum;
   return header;
 }
 
@@ -52,17 +55,60 @@ std::optional<std::string> read_all(const std::string& path) {
   }
 }
 
-bool write_entry(const std::string& path, const Header& header, std::string_view bytes) {
+// A file that is closed in any case. Throws RunError where it cannot be written.
+class EntryFile {
+ public:
+  explicit EntryFile(const std::string& path) : path_(path), file_(create_output_file(path)) {}
+  ~EntryFile() {
+    if (file_ >= 0) ::close(file_);
+  }
+  EntryFile(const EntryFile&) = delete;
+  EntryFile& operator=(const EntryFile&) = delete;
+
+  void write(std::string_view bytes) { write_all(file_, bytes, path_); }
+  // Begins again at the first byte.
+  void rewind() {
+    if (lseek(file_, 0, SEEK_SET) != 0) throw RunError(path_ + ": cannot be written again from its beginning");
+  }
+  bool close() { return ::close(std::exchange(file_, -1)) == 0; }
+
+ private:
+  const std::string path_;
+  int file_;
+};
+
+// A place for the header, by whose first bytes trim() knows the file; what write() puts; then the header, which has the
+// checksum of these bytes. limit: of their number.
+bool write_entry(const std::string& path, std::string_view kind, const std::string& key, std::uint64_t limit,
+                 const std::function<void(CacheWriter&)>& write) {
   try {
-    const int file = create_output_file(path);
-    try {
-      write_all(file, {reinterpret_cast<const char*>(&header), sizeof header}, path);
-      write_all(file, bytes, path);
-    } catch (...) {
-      close(file);
-      throw;
-    }
-    return close(file) == 0;
+    EntryFile file(path);
+    const auto put_header = [&file](const Header& header) { file.write({reinterpret_cast<const char*>(&header), sizeof header}); };
+    put_header(make_header(kind, key, 0, 0));
+    StateHash checksum;
+    std::uint64_t size = 0;
+    std::string waiting;  // small values together
+    const auto flush = [&] {
+      checksum.add_bytes(waiting.data(), waiting.size());
+      file.write(waiting);
+      waiting.clear();
+    };
+    CacheWriter writer([&](std::string_view bytes) {
+      size += bytes.size();
+      if (size > limit) throw RunError(path + ": larger than the cache may be");
+      if (waiting.size() + bytes.size() > kBlock) flush();
+      if (bytes.size() <= kBlock) {
+        waiting.append(bytes);
+      } else {
+        checksum.add_bytes(bytes.data(), bytes.size());
+        file.write(bytes);
+      }
+    });
+    write(writer);
+    flush();
+    file.rewind();
+    put_header(make_header(kind, key, size, checksum.digest()));
+    return file.close();
   } catch (const std::runtime_error&) {
     return false;
   }
@@ -128,7 +174,7 @@ std::optional<std::string> DiskCache::find(std::string_view kind, const std::str
   if (bytes->size() >= sizeof found) {
     std::memcpy(&found, bytes->data(), sizeof found);
     bytes->erase(0, sizeof found);
-    const Header wanted = make_header(kind, key, *bytes);
+    const Header wanted = make_header(kind, key, bytes->size(), hash64(*bytes));
     if (std::memcmp(&found, &wanted, sizeof found) == 0) {
       utimensat(AT_FDCWD, path.c_str(), nullptr, 0);  // used just now
       return bytes;
@@ -139,7 +185,11 @@ std::optional<std::string> DiskCache::find(std::string_view kind, const std::str
 }
 
 bool DiskCache::store(std::string_view kind, const std::string& key, std::string_view bytes) const {
-  if (folder_.empty() || bytes.size() > limit_) return false;
+  return bytes.size() <= limit_ && store(kind, key, [bytes](CacheWriter& writer) { writer.put_bytes(bytes); });
+}
+
+bool DiskCache::store(std::string_view kind, const std::string& key, const std::function<void(CacheWriter&)>& write) const {
+  if (folder_.empty()) return false;
   const std::string path = entry_path(folder_, kind, key);
   std::error_code error;
   try {
@@ -149,7 +199,7 @@ bool DiskCache::store(std::string_view kind, const std::string& key, std::string
     return false;
   }
   const std::string part = temporary_name(path);
-  bool kept = write_entry(part, make_header(kind, key, bytes), bytes);
+  bool kept = write_entry(part, kind, key, limit_, write);
   if (kept) {
     fs::rename(part, path, error);
     kept = !error;

@@ -10,15 +10,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "kernel/base/hash.h"
 
 namespace rubble {
+
+class CacheWriter;
 
 class DiskCache {
  public:
@@ -37,6 +41,8 @@ class DiskCache {
   std::optional<std::string> find(std::string_view kind, const std::string& key) const;
   // False when it could not be kept: the run goes on without.
   bool store(std::string_view kind, const std::string& key, std::string_view bytes) const;
+  // What write(writer) puts goes to the file at once: for entries that are large.
+  bool store(std::string_view kind, const std::string& key, const std::function<void(CacheWriter&)>& write) const;
 
  private:
   void trim() const;
@@ -68,21 +74,37 @@ class CacheKey {
 // carried from one machine to another, and a version in the key tells layouts apart.
 class CacheWriter {
  public:
+  using Sink = std::function<void(std::string_view bytes)>;
+
+  CacheWriter() = default;  // keeps all bytes
+  explicit CacheWriter(Sink sink) : sink_(std::move(sink)) {}  // hands them on, in order
+
   template <typename T>
   void put(const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    put_bytes({reinterpret_cast<const char*>(&value), sizeof value});
   }
   template <typename T>
   void put(const std::vector<T>& values) {
-    static_assert(std::is_trivially_copyable_v<T>);
     put(std::uint64_t(values.size()));
-    if (!values.empty())
-      bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+    put_values(values.data(), values.size());
   }
-  const std::string& bytes() const { return bytes_; }
+  // Without their number: for an array in parts.
+  template <typename T>
+  void put_values(const T* values, std::size_t count) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    put_bytes({reinterpret_cast<const char*>(values), count * sizeof(T)});
+  }
+  void put_bytes(std::string_view bytes) {
+    if (sink_)
+      sink_(bytes);
+    else
+      bytes_.append(bytes);
+  }
+  const std::string& bytes() const { return bytes_; }  // empty with a sink
 
  private:
+  Sink sink_;
   std::string bytes_;
 };
 

@@ -61,9 +61,7 @@ void Collapse::Impl::keep(const BondGroup& group, std::unique_ptr<GroupStress> w
 
 // What still holds together of a body some bonds of which have failed.
 std::vector<BondGroup> Collapse::Impl::groups_left_of(std::int32_t lead) const {
-  std::vector<std::uint8_t> others(structure.pieces.size(), 1);
-  for (const std::int32_t piece : parts.at(lead).stress->group().pieces) others[piece] = 0;
-  return find_groups(structure, status, others);
+  return find_parts(structure, status, parts.at(lead).stress->group());
 }
 
 void Collapse::Impl::replace(std::int32_t lead, const std::vector<BondGroup>& groups, bool always) {

@@ -19,38 +19,38 @@ void JoinedSets::join(std::int32_t a, std::int32_t b) {
   parent_[std::max(a, b)] = std::min(a, b);
 }
 
-std::vector<BondGroup> find_groups(const Structure& structure, const std::vector<BondStatus>& status,
-                                   const std::vector<std::uint8_t>& gone) {
-  const std::size_t count = structure.pieces.size();
-  const auto is_gone = [&gone](std::int32_t piece) { return !gone.empty() && gone[piece] != 0; };
-  const auto holds = [&](std::size_t i) {
+std::vector<BondGroup> find_parts(const Structure& structure, const std::vector<BondStatus>& status, const BondGroup& group) {
+  JoinedSets sets(structure.pieces.size());
+  for (const std::int32_t i : group.bonds) {
     const Bond& bond = structure.bonds[i];
-    return !status[i].broken && !is_gone(bond.piece_a) &&
-           (bond.piece_b == kFoundation || !is_gone(bond.piece_b));
-  };
-  JoinedSets sets(count);
-  for (std::size_t i = 0; i < structure.bonds.size(); ++i) {
-    const Bond& bond = structure.bonds[i];
-    if (holds(i) && bond.piece_b != kFoundation) sets.join(bond.piece_a, bond.piece_b);
+    if (!status[i].broken && bond.piece_b != kFoundation) sets.join(bond.piece_a, bond.piece_b);
   }
-  std::vector<std::int32_t> number(count, -1);
-  std::vector<BondGroup> groups;
-  for (std::int32_t i = 0; i < std::int32_t(count); ++i) {
-    if (is_gone(i)) continue;
-    std::int32_t& group = number[sets.find(i)];
-    if (group < 0) {
-      group = std::int32_t(groups.size());
-      groups.emplace_back();
+  std::vector<std::int32_t> number(structure.pieces.size(), -1);
+  std::vector<BondGroup> parts;
+  for (const std::int32_t piece : group.pieces) {
+    std::int32_t& part = number[sets.find(piece)];
+    if (part < 0) {
+      part = std::int32_t(parts.size());
+      parts.emplace_back();
     }
-    groups[group].pieces.push_back(i);
+    parts[part].pieces.push_back(piece);
   }
-  for (std::size_t i = 0; i < structure.bonds.size(); ++i) {
-    if (!holds(i)) continue;
-    BondGroup& group = groups[number[sets.find(structure.bonds[i].piece_a)]];
-    group.bonds.push_back(std::int32_t(i));
-    group.anchored = group.anchored || structure.bonds[i].piece_b == kFoundation;
+  for (const std::int32_t i : group.bonds) {
+    if (status[i].broken) continue;
+    BondGroup& part = parts[number[sets.find(structure.bonds[i].piece_a)]];
+    part.bonds.push_back(i);
+    part.anchored = part.anchored || structure.bonds[i].piece_b == kFoundation;
   }
-  return groups;
+  return parts;
+}
+
+std::vector<BondGroup> find_groups(const Structure& structure, const std::vector<BondStatus>& status) {
+  BondGroup all;
+  all.pieces.resize(structure.pieces.size());
+  all.bonds.resize(structure.bonds.size());
+  std::iota(all.pieces.begin(), all.pieces.end(), 0);
+  std::iota(all.bonds.begin(), all.bonds.end(), 0);
+  return find_parts(structure, status, all);
 }
 
 }  // namespace rubble

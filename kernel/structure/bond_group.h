@@ -24,9 +24,10 @@ struct BondGroup {
   bool anchored = false;             // by a bond to the foundation
 };
 
-// By their lowest piece. Pieces for which `gone` is not 0 belong to none; an empty list: none is gone.
-std::vector<BondGroup> find_groups(const Structure& structure, const std::vector<BondStatus>& status,
-                                   const std::vector<std::uint8_t>& gone = {});
+// All groups of a structure, by their lowest piece.
+std::vector<BondGroup> find_groups(const Structure& structure, const std::vector<BondStatus>& status);
+// What a group has come apart into since some of its bonds have broken; likewise.
+std::vector<BondGroup> find_parts(const Structure& structure, const std::vector<BondStatus>& status, const BondGroup& group);
 
 // Sets that grow together, known by their lowest member.
 class JoinedSets {

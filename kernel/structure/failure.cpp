@@ -140,8 +140,6 @@ std::vector<BondFailure> let_fail(const Structure& structure, GroupStress& stres
                                   std::vector<BondStatus>& status) {
   std::vector<BondFailure> all;
   const BondGroup& group = stress.group();
-  std::vector<std::uint8_t> others(structure.pieces.size(), 1);
-  for (const std::int32_t piece : group.pieces) others[piece] = 0;
   for (int round = 0; round < options.rounds; ++round) {
     const StressResult result = stress.solve(status, loads);
     if (!result.stable) break;
@@ -149,7 +147,7 @@ std::vector<BondFailure> let_fail(const Structure& structure, GroupStress& stres
     if (failures.empty()) break;
     all.insert(all.end(), failures.begin(), failures.end());
     // What has come apart is no longer one problem.
-    const std::vector<BondGroup> left = find_groups(structure, status, others);
+    const std::vector<BondGroup> left = find_parts(structure, status, group);
     if (left.size() > 1 || left[0].anchored != group.anchored) break;
   }
   return all;
@@ -168,9 +166,7 @@ StressResult find_standing(const Structure& structure, GroupStress& stress, std:
                            const std::vector<PieceLoad>& weights) {
   const BondGroup& group = stress.group();
   let_fail(structure, stress, weights, {}, status);
-  std::vector<std::uint8_t> others(structure.pieces.size(), 1);
-  for (const std::int32_t piece : group.pieces) others[piece] = 0;
-  const std::vector<BondGroup> left = find_groups(structure, status, others);
+  const std::vector<BondGroup> left = find_parts(structure, status, group);
   if (left.size() != 1 || !left[0].anchored) return {};
   StressResult result = stress.solve(status, weights);
   if (!result.stable || find_worst(structure, group, result, status).utilization > 1) return {};

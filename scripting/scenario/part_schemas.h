@@ -27,6 +27,8 @@ void add_fine_keys(Schema& keys, FinesSpec& fines);
 // Adds what contradicts itself in fines whose keys are each in range.
 void check_fines(const FinesSpec& fines, std::vector<Diagnostic>& mistakes);
 
+void add_light_keys(Schema& keys, MissionForm& form);  // of lamp and air, too
+
 void add_sky_keys(Schema& keys, LightScenario& light);
 // What is wrong with them beyond ranges.
 void check_sky(const LightScenario& light, std::vector<Diagnostic>& mistakes);

@@ -39,65 +39,41 @@ Rows read_rows(const std::string& path) {
   return rows;
 }
 
-TEST(Robots, RunsHaveTheSameBitsOnAnyNumberOfThreadsAndAreVerified) {
-  const ScratchFolder scratch;
-  std::string tracks[2];
+// A mission with robots, on one thread and on two, into the folders 1 and 2 of `scratch`. Gives what the second run said.
+std::string expect_same_tracks(const ScratchFolder& scratch, const std::string& mission, const std::string& more = "") {
+  std::string tracks[2], said;
   for (int threads = 1; threads <= 2; ++threads) {
     const std::string out = scratch / std::to_string(threads);
-    const Outcome run = run_rubble("run scripts/robots/controller.lua --threads " +
-                                   std::to_string(threads) + kQuick + out);
-    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const Outcome run = run_rubble("run " + mission + " --threads " + std::to_string(threads) + kQuick + out + more);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
     tracks[threads - 1] = read_file(out + "/robots/track.bin");
+    said = run.err;
   }
   EXPECT_FALSE(tracks[0].empty());
   EXPECT_TRUE(tracks[0] == tracks[1]);
+  return said;
+}
+
+TEST(Robots, RunsHaveTheSameBitsOnAnyNumberOfThreadsAndAreVerified) {
+  const ScratchFolder scratch;
+  expect_same_tracks(scratch, "scripts/robots/controller.lua");
   const Outcome verified = run_rubble("verify " + (scratch / "1"));
   EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
 }
 
 // The mission whose cost docs/development/robots.md states.
 TEST(Robots, ASnakeAmongManyContactsHasTheSameBitsOnAnyNumberOfThreads) {
-  const ScratchFolder scratch;
-  std::string tracks[2];
-  for (int threads = 1; threads <= 2; ++threads) {
-    const std::string out = scratch / std::to_string(threads);
-    const Outcome run = run_rubble("run bench/snake_bed.lua --threads " + std::to_string(threads) + kQuick + out);
-    ASSERT_EQ(run.exit_code, 0) << run.err;
-    tracks[threads - 1] = read_file(out + "/robots/track.bin");
-    const std::string said = "contacts: ";
-    const std::size_t at = run.err.find(said);
-    ASSERT_NE(at, std::string::npos) << run.err;
-    EXPECT_GT(std::stod(run.err.substr(at + said.size())), 20);
-  }
-  EXPECT_FALSE(tracks[0].empty());
-  EXPECT_TRUE(tracks[0] == tracks[1]);
-}
-
-TEST(Robots, AControllerThatReturnsNoNumberIsAMistakeWithItsLine) {
-  const ScratchFolder scratch;
-  write_file(scratch / "m.lua",
-             "return rubble.mission { pile = { layers = 0 },\n"
-             "  robots = { rubble.robot.rover { position = { 0, 0, 0.001 },\n"
-             "    control = function() return { linear = 0 / 0 } end } } }\n");
-  const Outcome run = run_rubble("run " + (scratch / "m.lua") + kQuick + (scratch / "out"));
-  EXPECT_EQ(run.exit_code, 1);
-  EXPECT_NE(run.err.find("m.lua:2: robots[1].control: linear"), std::string::npos) << run.err;
+  const std::string told = expect_same_tracks(ScratchFolder(), "bench/snake_bed.lua"), contacts = "contacts: ";
+  const std::size_t at = told.find(contacts);
+  ASSERT_NE(at, std::string::npos) << told;
+  EXPECT_GT(std::stod(told.substr(at + contacts.size())), 20);
 }
 
 Vec3 vector_in(const std::vector<double>& row, std::size_t at) { return {row[at], row[at + 1], row[at + 2]}; }
 
 TEST(Robots, AVineGrowsWithTheSameBitsOnAnyNumberOfThreads) {
   const ScratchFolder scratch;
-  std::string tracks[2];
-  for (int threads = 1; threads <= 2; ++threads) {
-    const std::string out = scratch / std::to_string(threads);
-    const Outcome run = run_rubble("run scripts/robots/vine.lua --threads " + std::to_string(threads) + kQuick +
-                                   out + " --set robot_run.duration=4");
-    ASSERT_EQ(run.exit_code, 0) << run.err;
-    tracks[threads - 1] = read_file(out + "/robots/track.bin");
-  }
-  EXPECT_FALSE(tracks[0].empty());
-  EXPECT_TRUE(tracks[0] == tracks[1]);
+  expect_same_tracks(scratch, "scripts/robots/vine.lua", " --set robot_run.duration=4");
   // Stamp, then position, speed and force of growth: its length rises by the speed of growth.
   const Rows joints = read_rows(scratch / "1/robots/vine_joints.csv");
   ASSERT_EQ(joints.size(), 241u);  // the last at the end
@@ -376,81 +352,6 @@ TEST(Robots, ASlideFollowsWhereAVinePushesAwayWhatHoldsIt) {
   const Outcome still = run_rubble(run_robots_only("slide.lua", scratch / "still") + " --set robot_run.duration=2");
   ASSERT_EQ(still.exit_code, 0) << still.err;
   EXPECT_EQ(manifest_from_json(read_file(scratch / "still/manifest.json"), "").metrics.at("robot_pieces_moved"), 0);
-}
-
-TEST(Robots, SensorsOnRobotsThatCannotCarryThemAreMistakesWithTheirLine) {
-  const ScratchFolder scratch;
-  const struct {
-    const char *line, *expected;
-  } cases[] = {
-      {"cameras = { a = { ride = { robot = \"q\" } } }", "m.lua:3: cameras.a.ride.robot: no robot has this name"},
-      {"cameras = { a = { ride = { robot = \"r\", link = \"mast\" } } }",
-       "m.lua:3: cameras.a.ride.link: the robot has no such link: expected one of base_link"},
-      {"imu = { ride = { link = \"mast\" } }", "m.lua:3: imu.ride.link: a link without a robot"},
-      {"imu = true, imus = { a = {} }", "m.lua:3: imu.on: contradicts imus"},
-      {"cameras = { a = { ride = { robot = \"r\" } } }, imu = true",
-       "m.lua:3: cameras: no camera is on the rig, but another sensor is"},
-      {"outputs = { euroc = true }, cameras = { a = { ride = { robot = \"r\" } }, b = {} }",
-       "m.lua:3: outputs.euroc: the format has one moving body"},
-  };
-  for (const auto& c : cases) {
-    write_file(scratch / "m.lua", std::string("return rubble.mission { pile = { layers = 0 },\n"
-                                              "  robots = { rubble.robot.rover { name = \"r\", position = { 0, 0, 0.001 } } },\n  ") +
-                                      c.line + " }\n");
-    const Outcome run = run_rubble("run " + (scratch / "m.lua") + " --force --out " + (scratch / "out"));
-    EXPECT_EQ(run.exit_code, 1) << c.line;
-    EXPECT_NE(run.err.find(c.expected), std::string::npos) << c.line << "\n" << run.err;
-  }
-}
-
-TEST(Robots, ALinkThatIsNotThereIsAMistakeWithItsLine) {
-  const ScratchFolder scratch;
-  write_file(scratch / "m.lua",
-             "return rubble.mission { pile = { layers = 0 },\n"
-             "  robots = { rubble.robot.rover { name = \"r\", position = { 0, 0, 0.001 } } },\n"
-             "  trajectory = { ride = { robot = \"r\", link = \"mast\" } } }\n");
-  const Outcome run = run_rubble("run " + (scratch / "m.lua") + kQuick + (scratch / "out"));
-  EXPECT_EQ(run.exit_code, 1);
-  EXPECT_NE(run.err.find("m.lua:3: trajectory.ride.link: the robot has no such link: expected one of "
-                         "base_link, front_left_wheel"),
-            std::string::npos)
-      << run.err;
-}
-
-// A function that never returns is stopped by the sandbox; what is too much for a motor is a mistake.
-TEST(Robots, ControllersThatNeverReturnOrAskTooMuchAreMistakesWithTheirLine) {
-  const ScratchFolder scratch;
-  const struct {
-    const char *body, *expected;
-  } cases[] = {{"while true do end", "m.lua:3"},
-               {"return { torques = { 1e9 } }", "robots[1].control: torques"},
-               {"return { linear = 80 }", "robots[1].control: linear"},
-               {"return 5", "robots[1].control: the function returned no valid commands"},
-               {"error(\"no idea\")", "no idea"}};
-  for (const auto& c : cases) {
-    write_file(scratch / "m.lua",
-               std::string("return rubble.mission { pile = { layers = 0 },\n"
-                           "  robots = { rubble.robot.rover { position = { 0, 0, 0.001 }, control = "
-                           "function()\n") + c.body + "\nend } } }\n");
-    const Outcome run = run_rubble("run " + (scratch / "m.lua") + kQuick + (scratch / "out") + " --force");
-    EXPECT_EQ(run.exit_code, 1) << c.body;
-    EXPECT_NE(run.err.find(c.expected), std::string::npos) << c.body << "\n" << run.err;
-  }
-}
-
-TEST(Robots, ARobotInASlabIsAMistakeThatSaysWhereToPutIt) {
-  const ScratchFolder scratch;
-  write_file(scratch / "m.lua",
-             "return rubble.mission {\n"
-             "  pile = { layers = 0, placed = { { box = { 2, 2, 0.2 }, position = { 0, 0, 0.1 } } } },\n"
-             "  robots = { rubble.robot.rover {\n"
-             "    position = { 0, 0, 0.12 } } } }\n");
-  const Outcome run = run_rubble("run " + (scratch / "m.lua") + kQuick + (scratch / "out"));
-  EXPECT_EQ(run.exit_code, 1);
-  EXPECT_NE(run.err.find("m.lua:3: robots[1].position: "), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("stands 0.08"), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("(piece 0)"), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("move it by {0.000, 0.000, 0.08"), std::string::npos) << run.err;
 }
 
 }  // namespace robots_test

@@ -7,6 +7,7 @@
   --jobs N               trainings beside each other, one thread each (default: 2)
   --budget N             minutes that this call may take; the next one goes on where it stopped (default: no limit)
   --python PATH          an interpreter with the packages of requirements-learning.txt (default: one is made in WORK)
+  --document             write the table and the curves into docs/development/robots.md
 
 Writes WORK/table.md and WORK/curves.svg. Trainings of other sources of the environments are made anew; with more minutes they
 go on. Exit code 77, which
@@ -28,6 +29,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
 ENVIRONMENTS = ("CrawlerNav", "SnakeExplore", "VoidExplore")
 LEARNS = ("CrawlerNav",)  # in this time
 COLOURS = ("#1b6ca8", "#c8553d", "#588b3c", "#8a5a9e", "#b08b2e")
@@ -73,26 +75,39 @@ def compare(work, name, seeds):
     return trained, chance, trained[0] - chance[0] > 2 * math.hypot(trained[1], chance[1])
 
 
+def read_curve(path):
+    """Minutes, and the mean return of the episodes that ended since the last row."""
+    with open(path) as file:
+        return [(float(row[1]) / 60, float(row[3])) for row in csv.reader(file) if row[3]]
+
+
 def draw_curves(work, names, seeds, path):
     """A panel for each environment, a line for each seed; dashes: random actions."""
-    width, height, text = 320, 200, []
+    width, height, left, top = 270, 180, 50, 40
+    text = []
     for panel, name in enumerate(names):
-        lines = []
-        for seed in range(1, seeds + 1):
-            with open(work / f"trained/{name}_{seed}/curve.csv") as file:
-                lines.append([(float(row[1]) / 60, float(row[3])) for row in csv.reader(file) if row[3]])
-        chance = statistics.mean(read(work / f"trained/{name}_random/result.json")["returns"])
+        lines = [read_curve(work / f"trained/{name}_{seed}/curve.csv") for seed in range(1, seeds + 1)]
+        chance = describe(read(work / f"trained/{name}_random/result.json")["returns"])[0]
         points = [point for line in lines for point in line] + [(0, chance)]
         low, high, last = min(y for _, y in points), max(y for _, y in points), max(x for x, _ in points)
+        x0 = panel * (width + 70) + left
 
         def place(x, y):
-            return f"{panel * (width + 40) + 30 + x / (last or 1) * width:.1f},{30 + (high - y) / (high - low or 1) * height:.1f}"
-        text.append(f'<text x="{panel * (width + 40) + 30}" y="18">{name}: return {low:.3g} to {high:.3g}, {last:.0f} min</text>')
+            return f"{x0 + x / (last or 1) * width:.1f},{top + (high - y) / (high - low or 1) * height:.1f}"
+
+        def label(x, y, words, more=""):
+            text.append(f'<text x="{x:.1f}" y="{y:.1f}" {more}>{words}</text>')
+        label(x0, top - 14, name, 'font-weight="bold"')
+        text.append(f'<path d="M{place(0, high)} L{place(0, low)} L{place(last, low)}" stroke="#999" fill="none"/>')
+        for y in (low, high):
+            label(x0 - 6, top + (high - y) / (high - low or 1) * height + 4, f"{y:.3g}", 'text-anchor="end"')
+        label(x0, top + height + 16, "0")
+        label(x0 + width, top + height + 16, f"{last:.0f} min", 'text-anchor="end"')
         text.append(f'<polyline points="{place(0, chance)} {place(last, chance)}" stroke="#555" stroke-dasharray="4 4" fill="none"/>')
         for line, colour in zip(lines, COLOURS * len(lines)):
-            text.append(f'<polyline points="{" ".join(place(*point) for point in line)}" stroke="{colour}" fill="none"/>')
-    path.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" width="{len(names) * (width + 40) + 30}" height="{height + 50}" '
-                    'font-family="sans-serif" font-size="12">\n' + "\n".join(text) + "\n</svg>\n")
+            text.append(f'<polyline points="{" ".join(place(*point) for point in line)}" stroke="{colour}" stroke-width="1.5" fill="none"/>')
+    path.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" width="{len(names) * (width + 70)}" height="{height + top + 30}" '
+                    'font-family="sans-serif" font-size="12"><rect width="100%" height="100%" fill="white"/>\n' + "\n".join(text) + "\n</svg>\n")
 
 
 def main():
@@ -105,6 +120,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--budget", type=float, default=math.inf)
     parser.add_argument("--python", type=Path)
+    parser.add_argument("--document", action="store_true")
     wish = parser.parse_args()
     names, until = wish.environments.split(","), time.monotonic() + 60 * wish.budget
     wish.work.mkdir(parents=True, exist_ok=True)
@@ -120,7 +136,7 @@ def main():
         subprocess.run([python, HERE / "train_one.py", what, name, str(seed), folder, str(seconds)], check=True, env=environment)
 
     # Where PyTorch is, the checker of stable-baselines3 runs, too.
-    subprocess.run([python, "-m", "unittest", "-k", "StableBaselines", HERE / "test_gymnasium.py"], check=True, env=environment, cwd=HERE.parent.parent)
+    subprocess.run([python, "-m", "unittest", "-k", "StableBaselines", HERE / "test_gymnasium.py"], check=True, env=environment, cwd=ROOT)
     def train(seed, name):
         """Returns how long the training lacks its time."""
         folder = wish.work / f"trained/{name}_{seed}"
@@ -149,7 +165,8 @@ def main():
         print(f"skipped: {sum(not seconds for seconds in missing)} of {len(trainings)} trainings are complete; {name}, seed {seed} has trained "
               f"for {read(wish.work / f'trained/{name}_{seed}/state.json').get('seconds', 0) / 60:.0f} of {wish.minutes:g} minutes; call it again")
         return 77
-    lines, failed = ["|environment|steps of each seed|PPO: mean return|random actions|above by two standard errors|", "|---|---|---|---|---|"], False
+    lines, failed = [f"|environment|steps of each seed, {wish.minutes:g} min|PPO: mean return|random actions|above by two standard errors|",
+                     "|---|---|---|---|---|"], False
     for name in names:
         trained, chance, above = compare(wish.work, name, wish.seeds)
         steps = [read(wish.work / f"trained/{name}_{seed}/result.json")["steps"] for seed in range(1, wish.seeds + 1)]
@@ -158,6 +175,11 @@ def main():
     (wish.work / "table.md").write_text("\n".join(lines) + "\n")
     draw_curves(wish.work, names, wish.seeds, wish.work / "curves.svg")
     print("\n".join(lines))
+    if wish.document:
+        sys.path.insert(0, str(ROOT / "tools"))
+        from document_marks import write_between_marks
+        write_between_marks(ROOT / "docs/development/robots.md", "learning", "\n".join(lines) + "\n")
+        shutil.copyfile(wish.work / "curves.svg", ROOT / "docs/pictures/learning.svg")
     return int(failed)
 
 

@@ -64,6 +64,17 @@ class TrainNightly(unittest.TestCase):
         self.assertIn("|`SnakeExplore`|100 to 100|0.18 ± 0.02|0.10 ± 0.10|no|", last.stdout)
         self.assertEqual((self.folder / "work/curves.svg").read_text().count("<polyline"), 6)
 
+    def test_it_writes_into_a_document(self):
+        (self.folder / "docs/pictures").mkdir(parents=True)
+        (self.folder / "docs/development").mkdir()
+        document = self.folder / "docs/development/robots.md"
+        document.write_text("before\n<!-- begin learning -->\nold\n<!-- end learning -->\nafter\n")
+        ran = self.call("--minutes", "1.5", "--write", document)
+        self.assertEqual(ran.returncode, 0, ran.stdout)
+        self.assertIn("1.5 min", document.read_text())
+        self.assertNotIn("old", document.read_text())
+        self.assertIn("CrawlerNav", (self.folder / "docs/pictures/learning.svg").read_text())
+
     def test_other_sources_begin_anew(self):
         self.call()
         (self.folder / "build/python/rubble/envs/new.py").write_text("")

@@ -7,7 +7,7 @@
   --jobs N               trainings beside each other, one thread each (default: 2)
   --budget N             minutes that this call may take; the next one goes on where it stopped (default: no limit)
   --python PATH          an interpreter with the packages of requirements-learning.txt (default: one is made in WORK)
-  --document             write the table and the curves into docs/development/robots.md
+  --write DOCUMENT       write the table between its marks "learning", and the curves into ../pictures/learning.svg beside it
 
 Writes WORK/table.md and WORK/curves.svg. Trainings of other sources of the environments are made anew; with more minutes they
 go on. Exit code 77, which
@@ -30,6 +30,9 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
+sys.path.insert(0, str(ROOT / "tools"))
+from document_marks import write_between_marks  # noqa: E402
+
 ENVIRONMENTS = ("CrawlerNav", "SnakeExplore", "VoidExplore")
 LEARNS = ("CrawlerNav",)  # in this time
 COLOURS = ("#1b6ca8", "#c8553d", "#588b3c", "#8a5a9e", "#b08b2e")
@@ -120,7 +123,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--budget", type=float, default=math.inf)
     parser.add_argument("--python", type=Path)
-    parser.add_argument("--document", action="store_true")
+    parser.add_argument("--write", metavar="DOCUMENT", type=Path)
     wish = parser.parse_args()
     names, until = wish.environments.split(","), time.monotonic() + 60 * wish.budget
     wish.work.mkdir(parents=True, exist_ok=True)
@@ -175,11 +178,9 @@ def main():
     (wish.work / "table.md").write_text("\n".join(lines) + "\n")
     draw_curves(wish.work, names, wish.seeds, wish.work / "curves.svg")
     print("\n".join(lines))
-    if wish.document:
-        sys.path.insert(0, str(ROOT / "tools"))
-        from document_marks import write_between_marks
-        write_between_marks(ROOT / "docs/development/robots.md", "learning", "\n".join(lines) + "\n")
-        shutil.copyfile(wish.work / "curves.svg", ROOT / "docs/pictures/learning.svg")
+    if wish.write:
+        write_between_marks(wish.write, "learning", "\n".join(lines) + "\n")
+        shutil.copyfile(wish.work / "curves.svg", wish.write.parent.parent / "pictures/learning.svg")
     return int(failed)
 
 

@@ -5,6 +5,7 @@ import numpy as np
 
 import flights
 import plan
+import records
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (after the choice of the backend)
@@ -15,20 +16,17 @@ ON_THE_WAY = ["dark", "lamp_15", "lamp_200", "night_15"]  # of the sheet of pict
 WIDTH = 1.0  # of a bin; unit: m
 
 
-def binned(frames, value):
-    """Centres of bins, and the mean of the value in each."""
-    into = np.array([f["into"] for f in frames])
-    values = np.array([value(f) for f in frames], float)
-    good = np.isfinite(values)
-    numbers = np.floor(into / WIDTH).astype(int)
-    chosen = [n for n in sorted(set(numbers)) if (good & (numbers == n)).any()]
-    return [(n + 0.5) * WIDTH for n in chosen], [values[good & (numbers == n)].mean() for n in chosen]
+def binned(bins, mean):
+    """Centres of bins of WIDTH, and the mean in each."""
+    begins = sorted({np.floor(b[0] / WIDTH) * WIDTH for b in bins})
+    means = [(begin + WIDTH / 2, mean(bins, begin, begin + WIDTH)) for begin in begins]
+    return zip(*[(x, y) for x, y in means if y is not None])
 
 
 PANELS = [
-    ("keypoints a megapixel", lambda f: f["keypoints_mp"], True),
-    ("true matches with the next frame, a megapixel", lambda f: f.get("matches_mp", np.nan), True),
-    ("frames that a model has, %", lambda f: 0.0 if f["model"] is None else 100.0, False),
+    ("keypoints a megapixel", records.mean_keypoints, True),
+    ("true matches with the next frame, a megapixel", records.mean_matches, True),
+    ("frames that a model has, %", lambda *of: 100 * records.share_in_model(*of), False),
 ]
 
 
@@ -39,9 +37,9 @@ def draw(found, title, path):
         results = found.get((name, "colmap"))
         if not results:
             continue
-        frames = [f for r in results.values() for f in r["frames"]]
-        for (label, value, log), place in zip(PANELS, axes):
-            x, y = binned(frames, value)
+        bins = [b for r in results.values() for b in r["bins"]]
+        for (label, mean, log), place in zip(PANELS, axes):
+            x, y = binned(bins, mean)
             place.plot(x, np.maximum(y, 0.8) if log else y, "o-", color=colour, ms=4, lw=1.6, label=titles[name])
     for (label, _, log), place in zip(PANELS, axes):
         place.set_ylabel(label)

@@ -1,6 +1,7 @@
 """The share of pictures or scans whose motion a system followed, against metres into the void."""
 import numpy as np
 
+import records
 import slam_plan
 
 PANELS = [("dark", "no lamp, day outside"), ("night_15", "night, lamp of 15 cd"), ("night_200", "night, lamp of 200 cd"),
@@ -47,10 +48,9 @@ def draw(found, mapped, path):
         curves[name] = [(judge.title, dict(fmt="s--" if judge.kind == "lidar" else "o-", color=COLOURS[judge.name]),
                          [(r["frames"]["into"], r["frames"]["followed"]) for r in found[name, judge.name].values()])
                         for judge in slam_plan.JUDGES if (name, judge.name) in found]
-        models = [r["frames"] for r in mapped.get((name, "colmap"), {}).values()]
+        models = mapped.get((name, "colmap"), {}).values()
         if models:
-            curves[name].append(("COLMAP 3.8: a model has it", dict(fmt="x:", color="#555555"),
-                                 [([f["into"] for f in frames], [f["model"] is not None for f in frames]) for frames in models]))
+            curves[name].append(("COLMAP 3.8: a model has it", dict(fmt="x:", color="#555555"), [records.in_model(r["bins"]) for r in models]))
     deepest = np.ceil(max(max(into) for drawn in curves.values() for _, _, flights in drawn for into, _ in flights) / WIDTH) * WIDTH
     lines = {}
     for (name, title), place in zip(chosen, axes[:, 0]):

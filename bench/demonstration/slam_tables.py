@@ -2,6 +2,7 @@
 import sys
 
 import flights
+import records
 import slam_judges
 import slam_plan
 import tables
@@ -83,6 +84,6 @@ def write(work):
         raise SystemExit("there are no results of this program in %s" % work.out)
     document_marks.write_between_marks(PAGE, "judges", table(found) + "\n", tables.program_commit(work))
     import slam_figure
-    slam_figure.draw(found, tables.collect(work, "small"), FIGURE)
+    slam_figure.draw(found, tables.collect(work, records.Records(), "small"), FIGURE)
     for note in notes(found):
         print(note)

@@ -1,4 +1,4 @@
-"""The tables of docs/explanation/sfm.md, from all results that are there, of the program as it is now."""
+"""The tables of docs/explanation/sfm.md, from all records of the sources as they are now."""
 import json
 import statistics
 import sys
@@ -6,6 +6,7 @@ import sys
 import flights
 import judges
 import plan
+import records
 import work as stages
 
 sys.path.insert(0, str(stages.ROOT / "tools"))
@@ -18,15 +19,15 @@ COLUMNS = [("frames", 0), ("segments", 1), ("on_track_percent", 1), ("points", 0
 INTO = (-3.0, 0.0, 2.0, 4.0, 6.0, 8.0, 99.0)  # borders of the figure's bins: metres into the void
 
 
-def collect(work, size):
-    """{(row, judge): {seed: result}}"""
+def collect(work, kept, size):
+    """{(row, judge): {seed: record}}"""
     flown, judging = flights.Flights(work, plan.SIZES[size]), judges.Judges(work)
     found = {}
     for seed, row in plan.order(range(1, 6), []):
         for judge in plan.JUDGES:
-            result = judging.find(flown.key(seed, row), row, judge)
-            if result:
-                found.setdefault((row.name, judge), {})[seed] = result
+            record = kept.find(size, seed, row, judge, kept.depends(flown, row, judging.identity(judge)))
+            if record:
+                found.setdefault((row.name, judge), {})[seed] = record
     return found
 
 
@@ -44,14 +45,13 @@ def cells(results):
     """As the published table, and the position error; then what the frames deep inside offered."""
     scores = [r["score"] for r in results.values()]
     row = [cell([s[key] for s in scores], digits) for key, digits in COLUMNS]
-    for key in ("keypoints_mp", "matches_mp"):
-        row.append(cell([mean_of(r["frames"], key) for r in results.values()], 0))
+    for mean in (records.mean_keypoints, records.mean_matches):
+        row.append(cell([mean(r["bins"]) for r in results.values()], 0))
     return row
 
 
-def mean_of(frames, key, low=None, high=None):
-    values = [f[key] for f in frames if key in f and (low is None or f["into"] is not None and low <= f["into"] < high)]
-    return statistics.mean(values) if values else None
+def all_bins(results):
+    return [b for r in results.values() for b in r["bins"]]
 
 
 HEADINGS = ["images", "segments", "on track, %", "points", "ATE, m", "keypoints / MP", "true matches / MP"]
@@ -91,15 +91,15 @@ def depth_table(found):
         results = found.get((row.name, "colmap"))
         if not results or row.name == "exterior":
             continue
-        frames = [f for r in results.values() for f in r["frames"]]
-        means = [[mean_of(frames, key, low, high) for low, high in zip(INTO, INTO[1:])] for key in ("keypoints_mp", "matches_mp")]
+        means = [[mean(all_bins(results), low, high) for low, high in zip(INTO, INTO[1:])]
+                 for mean in (records.mean_keypoints, records.mean_matches)]
         rows.append([row.title] + ["-" if k is None else "%.0f / %s" % (k, "-" if m is None else "%.0f" % m) for k, m in zip(*means)])
     names = ["outside"] + ["%g to %g m" % pair for pair in zip(INTO[1:], INTO[2:-1])] + ["deeper than %g m" % INTO[-2]]
     return markdown(["flight"] + names, rows)
 
 
-def show(work, size):
-    print(factor_table(collect(work, size)))
+def show(work, kept, size):
+    print(factor_table(collect(work, kept, size)))
 
 
 def program_commit(work):
@@ -110,18 +110,24 @@ def program_commit(work):
     return None
 
 
-def write(work):
-    found = {size: collect(work, size) for size in plan.SIZES}
+def commits(found):
+    """Of the records, as a sentence."""
+    names = sorted({r["commit"][:8] for results in found.values() for r in results.values()})
+    return "Programs of commits %s, which give the same bits.\n" % ", ".join(names) if len(names) > 1 else "Program of commit %s.\n" % names[0]
+
+
+def write(work, kept):
+    found = {size: collect(work, kept, size) for size in plan.SIZES}
     sizes = [size for size in plan.SIZES if found[size]]
     if not sizes:
-        raise SystemExit("there are no results of this program in %s" % work.out)
+        raise SystemExit("%s has no record of these sources" % kept.path)
     parts = {"paper": paper_table(found, sizes), "factors": "", "depths": ""}
     for size in sizes:
-        title = "%s: %s\n\n" % (size, plan.SIZES[size].title)
+        title = "%s: %s. %s\n" % (size, plan.SIZES[size].title, commits(found[size]))
         parts["factors"] += title + factor_table(found[size]) + "\n"
         parts["depths"] += title + depth_table(found[size]) + "\n"
     for name, text in parts.items():
-        document_marks.write_between_marks(PAGE, name, text, program_commit(work))
+        document_marks.write_between_marks(PAGE, name, text)
     import figure
     figure.draw(found[sizes[0]], plan.SIZES[sizes[0]].title, FIGURE)
     figure.draw_way(flights.Flights(work, plan.SIZES[sizes[0]]), WAY)

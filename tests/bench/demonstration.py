@@ -15,7 +15,7 @@ ROWS = ["exterior", "dark"]
 
 def run(program, out, *options):
     return subprocess.run([str(ROOT / "bench" / "demonstration" / "run"), "--size", "small", "--seeds", "1", "--rows", ",".join(ROWS),
-                           "--judges", "colmap", "--out", str(out), "--program", program, *options],
+                           "--judges", "colmap", "--out", str(out), "--records", str(out / "records.jsonl"), "--program", program, *options],
                           check=True, stdout=subprocess.PIPE, text=True).stdout
 
 

@@ -8,8 +8,10 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent.parent / "bench" / "demonstration"))
 import carriers  # noqa: E402
+import flights  # noqa: E402
 import matches  # noqa: E402
 import plan  # noqa: E402
+import records  # noqa: E402
 import work  # noqa: E402
 
 K = np.array([[500, 0, 320], [0, 500, 240], [0, 0, 1.0]])
@@ -74,6 +76,32 @@ def check_stages():
             assert len(made) == 2
 
 
+def check_records():
+    """Means over bins are those over frames; a record is found again until anything that it depends on is another."""
+    into = [-0.3, 0.1, 0.2, 0.6, 1.4, 0.7, 0.4]
+    frames = [{"into": x, "keypoints_mp": 10.0 * i, "model": 0 if i < 4 else None, **({"matches_mp": float(i)} if i < 6 else {})}
+              for i, x in enumerate(into)]
+    bins = records.bins_of(frames)
+    assert [b[0] for b in bins] == [-0.5, 0, 0.5, 1, 0.5, 0], bins  # along the flight
+    assert records.mean_keypoints(bins) == 30 and records.mean_matches(bins) == 2.5
+    assert records.mean_keypoints(bins, 0, 1) == 10 * (1 + 2 + 3 + 5 + 6) / 5 and records.mean_matches(bins, 0.5, 1) == 4
+    assert records.share_in_model(bins, 0, 0.5) == 2 / 3 and records.mean_matches(bins, 5, 9) is None
+    assert records.in_model(bins)[1] == [1, 1, 1, 1, 0, 0, 0]
+    assert records.bins_of([dict(f, into=None) for f in frames]) == [[None, 7, 210.0, 6, 15.0, 4]]
+    row = plan.ROWS[1]
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "records.jsonl"
+        kept, flown = records.Records(path), flights.Flights(work.Work(folder, __file__, 1), plan.SIZES["small"])
+        depends = kept.depends(flown, row, ["judge", "1"])
+        kept.add("small", 2, row, "colmap", depends, {"score": {"frames": 7}, "frames": frames}, "0123456789ab")
+        kept.add("small", 1, row, "colmap", depends, {"score": {"frames": 8}, "frames": frames}, "0123456789ab")
+        again = records.Records(path)
+        assert again.find("small", 2, row, "colmap", depends)["score"]["frames"] == 7 and len(path.read_text().splitlines()) == 2
+        assert again.find("small", 3, row, "colmap", depends) is None and again.find("full", 2, row, "colmap", depends) is None
+        assert again.find("small", 2, row, "colmap", again.depends(flown, row, ["judge", "2"])) is None
+        assert again.find("small", 2, row, "colmap", dict(depends, golden="of another kernel")) is None
+
+
 def check_plan():
     names = [row.name for row in plan.ROWS]
     assert len(names) == len(set(names))
@@ -86,4 +114,5 @@ if __name__ == "__main__":
     check_true_matches()
     check_carriers()
     check_stages()
+    check_records()
     check_plan()

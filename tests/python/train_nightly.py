@@ -34,7 +34,7 @@ sys.path.insert(0, str(ROOT / "tools"))
 from document_marks import write_between_marks  # noqa: E402
 
 ENVIRONMENTS = ("CrawlerNav", "SnakeExplore", "VoidExplore")
-LEARNS = ("CrawlerNav",)  # in this time
+LEARNS = ("CrawlerNav", "VoidExplore")  # in this time
 COLOURS = ("#1b6ca8", "#c8553d", "#588b3c", "#8a5a9e", "#b08b2e")
 
 

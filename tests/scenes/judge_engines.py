@@ -9,6 +9,7 @@ the Python interpreters have (readers.py, engines.py). Prints a table of drifts.
   --engines A,B      some of them alone
   --piles A,B        some of the piles alone
   --report FILE      write the table there as well
+  --write DOCUMENT   write what it says of drift between the document's marks "engines"
   --limit N          seconds that one simulation may take (default: 600)
 
 Exit code 1: a file was refused, or masses and places were not those of the pile.
@@ -20,6 +21,9 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent.parent / "tools"))
+from document_marks import write_between_marks  # noqa: E402
+
 ENGINES = {"mujoco": "mujoco", "mujoco_drive": "mujoco", "drake": "pydrake", "pybullet": "pybullet", "newton": "newton", "rapier": "rapier3d",
            "usd": "pxr"}
 READERS = {"pinocchio": "pinocchio", "trimesh": "trimesh, networkx, PIL", "gltf": "trimesh, networkx, PIL", "bullet_sdf": "pybullet"}
@@ -59,6 +63,10 @@ PILES["near"] = """return rubble.mission { seed = 6, packs = { "concrete" },
 """
 DYNAMIC = {"near": "near=-2,0,1.5"}
 DRIVEN = ("robots", "near")
+# Of the document; what is missing here has the figures of another pile.
+TITLES = {"concrete": "concrete", "residential": "residential", "parking": "parking", "bridge": "bridge", "hinged_slabs": "hinged slabs",
+          "hill": "concrete on a hill", "street": "concrete in a street", "near": "bricks, `near`", "building": "fallen building"}
+COLUMNS = {"mujoco": "MuJoCo", "drake": "Drake", "pybullet": "PyBullet", "newton": "Newton", "rapier": "Rapier"}
 
 
 def run(*command, limit=3600):
@@ -101,6 +109,23 @@ def row(pile, engine, result):
             f"{result['beyond_5_cm']}|{result['speed']}|")
 
 
+def short(number):
+    return f"{number:.1f}" if number < 10 else f"{number:.0f}"
+
+
+def drift_table(results):
+    """results: {(pile, engine): what the engine told}."""
+    names = {engine: next((r["engine"] for (_, e), r in results.items() if e == engine and "engine" in r), title)
+             for engine, title in COLUMNS.items()}
+    lines = ["|pile|free pieces|" + "|".join(names.values()) + "|", "|---|---|" + "---|" * len(names)]
+    for pile, title in TITLES.items():
+        of = [results.get((pile, engine), {}) for engine in COLUMNS]
+        cells = [f"{short(r['median_mm'])}, {r['max_mm']:.0f}; {r['beyond_5_cm']}" if "median_mm" in r else "" for r in of]
+        pieces = next((str(r["pieces"]) for r in of if "pieces" in r), "")
+        lines.append(f"|{title}|{pieces}|" + "|".join(cells) + "|")
+    return "\n".join(lines) + "\n"
+
+
 def main():
     parser = argparse.ArgumentParser(usage=__doc__)
     parser.add_argument("program")
@@ -110,12 +135,13 @@ def main():
     parser.add_argument("--engines", default=",".join([*READERS, *ENGINES]))
     parser.add_argument("--piles", default=",".join(PILES))
     parser.add_argument("--report", type=Path)
+    parser.add_argument("--write", metavar="DOCUMENT")
     parser.add_argument("--limit", type=int, default=600)
     options = parser.parse_args()
     options.work.mkdir(parents=True, exist_ok=True)
     interpreters = find_engines(options.python or [sys.executable])
     lines = ["|pile|engine|free pieces|median drift, mm|90 % below, mm|largest, mm|beyond 5 cm|speed|", "|---|---|---|---|---|---|---|---|"]
-    wrong = False
+    wrong, results = False, {}
     for pile in options.piles.split(","):
         export = make(options.program, options.work.resolve(), pile, PILES[pile])
         for engine in options.engines.split(","):
@@ -130,6 +156,7 @@ def main():
                 result = {"failed": f"not done after {options.limit} s"}
             except json.JSONDecodeError:
                 result = {"failed": "no result: " + done.stdout[-200:]}
+            results[pile, engine] = result
             wrong = wrong or "failed" in result or bool(result.get("errors"))
             lines.append(row(pile, engine, result))
             print(lines[-1], flush=True)
@@ -138,6 +165,8 @@ def main():
             print(f"skipped: {engine}: no interpreter has {({**ENGINES, **READERS})[engine]}")
     if options.report:
         options.report.write_text("\n".join(lines) + "\n")
+    if options.write:
+        write_between_marks(options.write, "engines", drift_table(results))
     return 1 if wrong else 0
 
 

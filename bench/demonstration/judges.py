@@ -55,6 +55,11 @@ class Judges:
         """Deletes what only judges need."""
         shutil.rmtree(self.work.out / "matched" / stages.digest("matched", self.depends(dataset_key, row, "pycolmap")), ignore_errors=True)
 
+    def find(self, dataset_key, row, judge):
+        """The result, where it is there already; else None."""
+        path = self.work.out / "judged" / stages.digest("judged", self.depends(dataset_key, row, judge)) / "result.json"
+        return json.loads(path.read_text()) if path.exists() else None
+
     def judge(self, seed, row, dataset, judge, deepest):
         """deepest: as of matches.measure()."""
         def make(folder):

@@ -73,7 +73,7 @@ class BroadPhase {
     std::int64_t min[3], max[3];
     double cells() const;
   };
-  static constexpr int kGrids = 4;
+  static constexpr int kGrids = 4;  // each with cells four times as wide as the one before
   static constexpr double kCells[kGrids] = {0.6, 2.4, 9.6, 38.4};  // the finest: about the size of a piece; unit: m
 
   static Range range_of(const Aabb& box, double cell);

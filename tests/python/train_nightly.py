@@ -34,7 +34,8 @@ sys.path.insert(0, str(ROOT / "tools"))
 from document_marks import write_between_marks  # noqa: E402
 
 ENVIRONMENTS = ("CrawlerNav", "SnakeExplore", "VoidExplore")
-LEARNS = ("CrawlerNav", "VoidExplore")  # in this time
+LEARNS = ("CrawlerNav",)  # for certain, in this time
+FEWEST = 40  # episodes of a point of a curve
 COLOURS = ("#1b6ca8", "#c8553d", "#588b3c", "#8a5a9e", "#b08b2e")
 
 
@@ -79,9 +80,17 @@ def compare(work, name, seeds):
 
 
 def read_curve(path):
-    """Minutes, and the mean return of the episodes that ended since the last row."""
+    """Minutes, and the mean return of so many episodes at least: after each call all episodes begin anew, and the first that end are
+    short ones."""
+    curve, episodes, total = [], 0, 0.0
     with open(path) as file:
-        return [(float(row[1]) / 60, float(row[3])) for row in csv.reader(file) if row[3]]
+        for row in csv.reader(file):
+            count = int(row[2])
+            episodes, total = episodes + count, total + count * float(row[3] or 0)
+            if episodes >= FEWEST:
+                curve.append((float(row[1]) / 60, total / episodes))
+                episodes, total = 0, 0.0
+    return curve
 
 
 def draw_curves(work, names, seeds, path):

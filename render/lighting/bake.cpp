@@ -150,7 +150,7 @@ void LightBake::keep_pieces() const {
   }
   cache_.store("lit_pieces", key_, [&](CacheWriter& to) {
     to.put(pieces), to.put(count);
-    for (const std::uint32_t piece : pieces) to.put_values(&nodes_[scene_.placed[piece].first_light], node_count(piece));
+    for (const std::uint32_t piece : pieces) to.put_values(nodes_.data() + scene_.placed[piece].first_light, node_count(piece));
   });
 }
 

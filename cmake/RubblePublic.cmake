@@ -54,6 +54,7 @@ if(TARGET rubble_voids)
   list(APPEND RUBBLE_PUBLIC_HEADERS
     kernel/geometry/voxel_grid.h
     kernel/queries/queries.h
+    kernel/voids/cell_clearance.h
     kernel/voids/cell_slots.h
     kernel/voids/void_map.h
     kernel/voids/void_path.h

@@ -1,10 +1,14 @@
 #include "io/voids/void_files.h"
 
-#include <openvdb/io/Stream.h>
+#include <openvdb/io/Archive.h>
+#include <openvdb/io/GridDescriptor.h>
 
 #include <cmath>
+#include <functional>
 #include <mutex>
-#include <sstream>
+#include <ostream>
+#include <streambuf>
+#include <vector>
 
 #include "io/base/atomic_file.h"
 #include "io/voids/vdb_grids.h"
@@ -70,40 +74,84 @@ openvdb::Int32Grid::Ptr make_label_grid(const VoidSpace& space, const RobotVoids
   return grid;
 }
 
-// A VDB header is: magic (8 bytes), file version, library version (4 + 4 + 4), whether there are
-// offsets (1), then a random UUID as 36 characters. It is replaced by one from the content.
-void replace_uuid(std::string& bytes) {
-  constexpr std::size_t kAt = 21, kLength = 36;
-  bytes.replace(kAt, kLength, kLength, '0');
-  Sha256 hash;
-  hash.add(bytes.data(), bytes.size());
-  const std::string digest = hash.hex();
-  const std::string uuid = digest.substr(0, 8) + "-" + digest.substr(8, 4) + "-8" +
-                           digest.substr(13, 3) + "-8" + digest.substr(17, 3) + "-" +
-                           digest.substr(20, 12);
-  bytes.replace(kAt, kLength, uuid);
-}
+// What OpenVDB writes goes into a file as it comes. A VDB header is: magic (8 bytes), file version, library version (4 + 4 + 4),
+// whether there are offsets (1), then a random UUID as 36 characters. It is replaced by one from the content.
+class VdbFile : public std::streambuf {
+ public:
+  explicit VdbFile(const std::string& path) : file_(path) {}
+
+  void commit() {
+    const std::string digest = hash_.hex();
+    file_.overwrite(kUuidAt, digest.substr(0, 8) + "-" + digest.substr(8, 4) + "-8" + digest.substr(13, 3) + "-8" +
+                                 digest.substr(17, 3) + "-" + digest.substr(20, 12));
+    file_.commit();
+  }
+
+ protected:
+  std::streamsize xsputn(const char* bytes, std::streamsize size) override {
+    std::streamsize done = 0;
+    for (; done < size && file_.size() < kUuidAt + kUuidLength; ++done)
+      add(file_.size() < kUuidAt ? bytes + done : "0", 1);
+    add(bytes + done, std::size_t(size - done));
+    return size;
+  }
+  int_type overflow(int_type c) override {
+    const char byte = traits_type::to_char_type(c);
+    if (!traits_type::eq_int_type(c, traits_type::eof())) xsputn(&byte, 1);
+    return traits_type::not_eof(c);
+  }
+
+ private:
+  static constexpr std::uint64_t kUuidAt = 21, kUuidLength = 36;
+
+  void add(const char* bytes, std::size_t size) {
+    hash_.add(bytes, size), file_.write(bytes, size);
+  }
+
+  AtomicFile file_;
+  Sha256 hash_;
+};
+
+// openvdb::io::Stream, but for grids that are made one after the other: those of a large map would fill the memory together.
+class GridByGrid : private openvdb::io::Archive {
+ public:
+  using Makers = std::vector<std::function<openvdb::GridBase::Ptr()>>;
+
+  // Their names are all different.
+  void write(std::ostream& out, const Makers& makers) const {
+    writeHeader(out, false);
+    openvdb::io::setWriteGridStatsMetadata(out, isGridStatsMetadataEnabled());
+    openvdb::MetaMap().writeMeta(out);
+    const std::int32_t count = std::int32_t(makers.size());
+    out.write(reinterpret_cast<const char*>(&count), sizeof count);
+    for (const auto& make : makers) {
+      const openvdb::GridBase::Ptr grid = make();
+      openvdb::io::GridDescriptor descriptor(grid->getName(), grid->type(), grid->saveFloatAsHalf());
+      writeGrid(descriptor, grid, out, false);
+    }
+  }
+};
 
 }  // namespace
 
 void write_vdb(const std::string& path, const VoidMap& map) {
   static std::once_flag once;
   std::call_once(once, [] { openvdb::initialize(); });
+  const VoidSpace& space = map.space;
   const auto widest_at = [&map](std::size_t i) { return map.widest.radius[map.widest.cells[i]]; };
-  openvdb::GridPtrVec grids{
-      make_float_grid(
-          map.space, [&map](std::size_t i) { return map.space.clearance[i]; }, "clearance"),
-      make_float_grid(map.space, widest_at, "widest_path"), make_solid_grid(map.space)};
-  for (const RobotVoids& robot : map.robots) grids.push_back(make_label_grid(map.space, robot));
-  std::ostringstream stream(std::ios::binary);
+  GridByGrid::Makers makers{
+      [&] { return make_float_grid(space, [&](std::size_t i) { return space.clearance[i]; }, "clearance"); },
+      [&] { return make_float_grid(space, widest_at, "widest_path"); }, [&] { return make_solid_grid(space); }};
+  for (const RobotVoids& robot : map.robots) makers.push_back([&] { return make_label_grid(space, robot); });
+  VdbFile file(path);
+  std::ostream out(&file);
+  out.exceptions(std::ios::badbit);  // so that what the file says gets through
   try {
-    openvdb::io::Stream(stream).write(grids);
+    GridByGrid().write(out, makers);
   } catch (const openvdb::Exception& e) {
     throw RunError(path + ": OpenVDB cannot write it: " + e.what());
   }
-  std::string bytes = stream.str();
-  replace_uuid(bytes);
-  write_text_file(path, bytes);
+  file.commit();
 }
 
 }  // namespace rubble

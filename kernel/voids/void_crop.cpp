@@ -42,16 +42,17 @@ VoidSpace crop_to_pile(VoidSpace space, double margin) {
   }
   // Rows move towards the beginning of the same lists: a second copy would need as much memory
   // again.
+  std::vector<float>& clearance = space.clearance.of_all(space.grid.count());
   std::ptrdiff_t to = 0;
   for (int z = box.first[2]; z <= box.last[2]; ++z)
     for (int y = box.first[1]; y <= box.last[1]; ++y, to += grid.size[0]) {
       const auto from = std::ptrdiff_t(space.grid.index({box.first[0], y, z}));
       std::copy_n(space.kind.begin() + from, grid.size[0], space.kind.begin() + to);
-      std::copy_n(space.clearance.begin() + from, grid.size[0], space.clearance.begin() + to);
+      std::copy_n(clearance.begin() + from, grid.size[0], clearance.begin() + to);
     }
   space.grid = grid;
   space.kind.resize(grid.count());
-  space.clearance.resize(grid.count());
+  space.clearance.of_all(grid.count());
   return space;
 }
 

@@ -59,7 +59,10 @@ class Builder {
       measure(map, 0.25, 0.95);
     }
     if (options_.ground) clip_to_ground(map);
-    if (options_.margin) map = crop_to_pile(std::move(map), *options_.margin);
+    if (options_.margin) {
+      map = crop_to_pile(std::move(map), *options_.margin);
+      keep_voids(map);
+    }
     report(1);
     return map;
   }
@@ -102,8 +105,7 @@ class Builder {
   // by layer.
   void measure_clearance(VoidSpace& space, const VoxelSurface& surface) {
     const VoxelGrid& grid = space.grid;
-    space.clearance.resize(grid.count());
-    float* const values = space.clearance.data();
+    float* const values = space.clearance.of_all(grid.count()).data();
     find_nearest_seeds(grid, surface.cells, pool_, values);
     const std::size_t row = std::size_t(grid.size[0]), layer = row * std::size_t(grid.size[1]);
     std::vector<std::uint32_t> below(layer), here(layer);
@@ -136,13 +138,25 @@ class Builder {
   void clip_to_ground(VoidSpace& space) {
     const VoxelGrid& grid = space.grid;
     const std::size_t layer = std::size_t(grid.size[0]) * std::size_t(grid.size[1]);
+    std::vector<float>& values = space.clearance.of_all(grid.count());
     pool_.run(grid.size[2], 1, [&](int begin, int end) {
       for (int z = begin; z < end; ++z) {
         const double height = std::max(0.0, grid.centre(Cell{0, 0, z}).z);
         for (std::size_t i = std::size_t(z) * layer; i < (std::size_t(z) + 1) * layer; ++i)
-          space.clearance[i] = float(std::min(double(space.clearance[i]), height));
+          values[i] = float(std::min(double(values[i]), height));
       }
     });
+  }
+
+  // Most of a map is outside, where nobody asks for the clearance but at the border of a void.
+  static void keep_voids(VoidSpace& space) {
+    std::vector<bool> wanted(space.kind.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (space.kind[i] != CellKind::free_void) continue;
+      wanted[i] = true;
+      for_each_neighbour(space.grid, i, [&](std::size_t k) { wanted[k] = wanted[k] || space.kind[k] == CellKind::outside; });
+    }
+    space.clearance.keep(wanted);
   }
 
   Solids solids_;

@@ -16,6 +16,7 @@
 #include "kernel/base/mesh.h"
 #include "kernel/model/pile_state.h"
 #include "kernel/geometry/voxel_grid.h"
+#include "kernel/voids/cell_clearance.h"
 
 namespace rubble {
 
@@ -33,7 +34,8 @@ struct VoidSpaceOptions {
   double rolling_radius = kOutsideRadius;  // unit: m; range: 2 voxels to 10 m
   bool ground = true;                     // the plane z = 0 is a surface with solid below
   // Of the outside that the map keeps around all solid and void cells; nothing: what the ball needs, so that paths
-  // lead through the outside, too. Voids are the same with less memory; unit: m; range: 0 to 100
+  // lead through the outside, too. Voids are the same with less memory; no path leads through the outside then;
+  // unit: m; range: 0 to 100
   std::optional<double> margin;
   // Solid types that do not extend the map: terrain. The map surrounds the other pieces.
   std::vector<int> scenery{};
@@ -49,8 +51,9 @@ struct VoidSpace {
   VoxelGrid grid;              // numbers the cells of the two lists below
   std::vector<CellKind> kind;  // one a cell
   // Distance from the centre of a cell to the surface; 0 in solids. It is the exact distance to the nearest triangle,
-  // or in rare cases to a triangle beside it that is less than half a voxel farther. Never too small; unit: m.
-  std::vector<float> clearance;
+  // or in rare cases to a triangle beside it that is less than half a voxel farther. Never too small. With
+  // VoidSpaceOptions::margin 0 also in cells outside that share no face with a void; unit: m.
+  CellClearance clearance;
   double rolling_radius = kOutsideRadius;  // as requested; unit: m
   std::uint64_t pile_state = 0;            // PileState::state_hash() of the pile
 

@@ -88,7 +88,8 @@ TEST_F(VoidFiles, VdbHasTheSameBytesEachTime) {
   write_vdb(folder_ + "/b.vdb", make_map());
   EXPECT_EQ(read_file(folder_ + "/a.vdb"), read_file(folder_ + "/b.vdb"));
   VoidMap other = make_map();
-  other.space.clearance[std::size_t(map_->robots[0].voids[0].cells[0])] += 1e-6f;
+  const std::size_t cell = map_->robots[0].voids[0].cells[0];
+  other.space.clearance.set(cell, other.space.clearance[cell] + 1e-6f);
   write_vdb(folder_ + "/c.vdb", other);
   EXPECT_NE(read_file(folder_ + "/a.vdb").substr(0, 60), read_file(folder_ + "/c.vdb").substr(0, 60))
       << "the UUID follows the content";

@@ -145,7 +145,7 @@ TEST(VoidSpace, IsTheSameForAnyNumberOfThreads) {
   options.threads = 3;
   const VoidSpace three = calc_void_space(scene.pile, scene.pointers(), options);
   EXPECT_EQ(one.kind, three.kind);
-  EXPECT_EQ(one.clearance, three.clearance);
+  for (std::size_t i = 0; i < one.kind.size(); ++i) ASSERT_EQ(one.clearance[i], three.clearance[i]) << "cell " << i;
 }
 
 // Where the centre of the rolling ball comes to from the border of the grid, by single steps.
@@ -254,7 +254,8 @@ TEST(VoidSpace, IsTheSameWithLittleOfTheOutside) {
   std::size_t other = 0;
   for (std::size_t i = 0; i < part.kind.size(); ++i) {
     const std::size_t k = whole.grid.index(whole.grid.find_cell(part.grid.centre(i)));
-    other += part.kind[i] != whole.kind[k] || std::abs(part.clearance[i] - whole.clearance[k]) > 1e-5f;
+    const bool is_void = whole.kind[k] == CellKind::free_void;
+    other += part.kind[i] != whole.kind[k] || (is_void && std::abs(part.clearance[i] - whole.clearance[k]) > 1e-5f);
   }
   EXPECT_LT(other, part.kind.size() / 1000) << "corners of cells are rounded in other places";
   EXPECT_NEAR(part.volume(CellKind::free_void), whole.volume(CellKind::free_void), 0.001);

@@ -1,6 +1,6 @@
-"""Results of the demonstration that outlive the machine: one line each in records.jsonl, which is kept with the sources. A
-campaign of some nights goes on with any commit that gives the same bits: a record names the golden hashes of its commit, and one
-whose golden hashes, mission, settings or judge are not those of the sources counts as missing."""
+"""Results of the demonstration that outlive the machine: one line each in records.jsonl (SLAM systems: slam_records.jsonl), which
+are kept with the sources. A campaign of some nights goes on with any commit that gives the same bits: a record names the golden
+hashes of its commit, and one whose golden hashes, mission, settings or judge are not those of the sources counts as missing."""
 import hashlib
 import json
 import math
@@ -21,28 +21,35 @@ def golden_hash():
     return hashlib.sha256(b"".join((stages.ROOT / name).read_bytes() for name in GOLDEN)).hexdigest()[:12]
 
 
-def bins_of(frames):
-    """Frames that follow each other in one bin, along the flight: [metres into the void where the bin begins, or null; frames; sum of
-    keypoints / MP; frames with a next one; sum of true matches / MP; frames that a model has]."""
+def grouped(into, width, *columns):
+    """Frames that follow each other in one bin, along the flight: [metres into the void where the bin begins, or null; frames; sums of
+    the columns]. into: of each frame, metres, or None."""
     bins = []
-    for f in frames:
-        at = None if f["into"] is None else math.floor(f["into"] / BIN) * BIN
+    for place, *values in zip(into, *columns):
+        at = None if place is None else math.floor(place / width) * width
         if not bins or bins[-1][0] != at:
-            bins.append([at, 0, 0.0, 0, 0.0, 0])
-        sums = bins[-1]
-        sums[1] += 1
-        sums[2] += f["keypoints_mp"]
-        if "matches_mp" in f:
-            sums[3] += 1
-            sums[4] += f["matches_mp"]
-        sums[5] += f["model"] is not None
+            bins.append([at, 0] + [0] * len(columns))
+        bins[-1][1] += 1
+        for k, value in enumerate(values):
+            bins[-1][2 + k] += value
     return [[at, *(round(x, 1) for x in sums)] for at, *sums in bins]
 
 
+def bins_of(frames):
+    """grouped(): sum of keypoints / MP; frames with a next one; sum of true matches / MP; frames that a model has."""
+    columns = [(f["keypoints_mp"], int("matches_mp" in f), f.get("matches_mp", 0), int(f["model"] is not None)) for f in frames]
+    return grouped([f["into"] for f in frames], BIN, *zip(*columns))
+
+
+def shares(bins, width, column):
+    """Of each frame, along the flight: metres into the void, to the middle of its bin, and the bin's mean of a column."""
+    frames = [(b[0] + width / 2, b[column] / b[1]) for b in bins for _ in range(b[1])]
+    return [list(values) for values in zip(*frames)]
+
+
 def in_model(bins):
-    """Of each frame, along the flight: metres into the void, to the middle of its bin, and the share of the bin that a model has."""
-    frames = [(at + BIN / 2, modelled / count) for at, count, _, _, _, modelled in bins for _ in range(count)]
-    return [list(column) for column in zip(*frames)]
+    """shares() of the frames that a model has."""
+    return shares(bins, BIN, 5)
 
 
 def mean_keypoints(bins, low=None, high=None):
@@ -71,23 +78,39 @@ class Records:
         self.kept = {tuple(r["key"]): r for r in map(json.loads, lines)}
         self.golden = golden_hash()
 
-    def depends(self, flown, row, judge):
-        """flown: Flights."""
-        text = json.dumps([stages.digest_file(stages.MISSION), flown.settings(row), row.carrier, row.calibrated, judge,
-                           [stages.digest_file(HERE / name) for name in MEASURES]])
-        return {"golden": self.golden, "rest": hashlib.sha256(text.encode()).hexdigest()[:12]}
+    def depends(self, *parts):
+        """parts: whatever the result follows from besides the program."""
+        return {"golden": self.golden, "rest": hashlib.sha256(json.dumps(list(parts)).encode()).hexdigest()[:12]}
 
-    def find(self, size, seed, row, judge, depends):
-        """The record, or None."""
-        record = self.kept.get((size, row.name, seed, judge))
+    def find(self, key, depends):
+        """The record, or None. key: of strings and numbers."""
+        record = self.kept.get(tuple(key))
         return record if record and record["depends"] == depends else None
 
-    def add(self, size, seed, row, judge, depends, result, commit):
-        self.kept[(size, row.name, seed, judge)] = {"key": [size, row.name, seed, judge], "commit": commit, "depends": depends,
-                                                    "score": result["score"], "bins": bins_of(result["frames"])}
+    def add(self, key, depends, commit, result):
+        """result: what the record has besides."""
+        self.kept[tuple(key)] = {"key": list(key), "commit": commit, "depends": depends, **result}
         part = self.path.with_suffix(".part")
         part.write_text("".join(json.dumps(self.kept[key]) + "\n" for key in sorted(self.kept)))
         os.replace(part, self.path)
+
+
+def flight_parts(flown, row):
+    """What a recording follows from: for Records.depends()."""
+    return [stages.digest_file(stages.MISSION), flown.settings(row), row.carrier]
+
+
+class MappingRecords(Records):
+    """Of structure from motion. judge: its identity (judges.py) for depends(), its name for the others."""
+
+    def depends(self, flown, row, judge):
+        return super().depends(*flight_parts(flown, row), row.calibrated, judge, [stages.digest_file(HERE / name) for name in MEASURES])
+
+    def find(self, size, seed, row, judge, depends):
+        return super().find((size, row.name, seed, judge), depends)
+
+    def add(self, size, seed, row, judge, depends, result, commit):
+        super().add((size, row.name, seed, judge), depends, commit, {"score": result["score"], "bins": bins_of(result["frames"])})
 
 
 def commit_of(run):

@@ -3,13 +3,13 @@ import numpy as np
 
 import records
 import slam_plan
+from slam_records import WIDTH
 
 PANELS = [("dark", "no lamp, day outside"), ("night_15", "night, lamp of 15 cd"), ("night_200", "night, lamp of 200 cd"),
           ("smoke", "smoke of 0.3 / m")]
 COLOURS = {"orbslam3_rgbd": "#1b6ca8", "orbslam3_monocular": "#74b3e0", "orbslam3_rgbd_inertial": "#2a9d8f",
            "orbslam3_monocular_inertial": "#8fd3a8", "orbslam3_stereo": "#0b3c5d", "orbslam3_stereo_inertial": "#1f6f54",
            "kiss_icp": "#f4a261", "kiss_icp_near": "#e76f51", "genz_icp": "#b5179e", "rko_lio": "#bdbd2b", "rko_lio_near": "#7a5c00"}
-WIDTH = 1.0  # of a bin; unit: m
 
 
 def legs(into):
@@ -46,7 +46,7 @@ def draw(found, mapped, path):
     curves = {}  # by panel: (legend, style, flights)
     for name, _ in chosen:
         curves[name] = [(judge.title, dict(fmt="s--" if judge.kind == "lidar" else "o-", color=COLOURS[judge.name]),
-                         [(r["frames"]["into"], r["frames"]["followed"]) for r in found[name, judge.name].values()])
+                         [records.shares(r["bins"], WIDTH, 2) for r in found[name, judge.name].values()])
                         for judge in slam_plan.JUDGES if (name, judge.name) in found]
         models = mapped.get((name, "colmap"), {}).values()
         if models:

@@ -109,6 +109,10 @@ class SlamJudges:
         return {"run": self.depends(dataset_key, judge, number), "scaled": judge.scaled, "base": BASES.get(system_of(judge)),
                 "after": POSE_AFTER.get(system_of(judge)), "score": stages.digest_file(HERE / "slam_score.py")}
 
+    def parts(self, judge, number):
+        """What a result follows from besides the recording: for records.Records.depends()."""
+        return [self.depends_score("", judge, number), [stages.digest_file(HERE / name) for name in ("carriers.py", "carrier.lua")]]
+
     def find(self, dataset_key, judge, number):
         """The result, where it is there already; else None."""
         path = self.work.out / "slam_score" / stages.digest("slam_score", self.depends_score(dataset_key, judge, number)) / "result.json"

@@ -1,4 +1,4 @@
-"""The table and the figure of docs/explanation/slam_judges.md, from all results that are there, of the program as it is now."""
+"""The table and the figure of docs/explanation/slam_judges.md, from all records of the sources as they are now."""
 import sys
 
 import flights
@@ -20,16 +20,16 @@ HEADINGS = ["flight", "judge", "seeds", "runs", "pictures or scans", "with a pos
             "ATE, m", "first lost", "where, m into the void"]
 
 
-def collect(work):
-    """{(flight, judge): {(seed, run): result}}"""
+def collect(work, kept):
+    """{(flight, judge): {(seed, run): record}}"""
     judging, found = slam_judges.SlamJudges(work), {}
     for seed, row, kind, judges in slam_plan.order(SEEDS, [], []):
-        key = flights.Flights(work, slam_plan.KINDS[kind].recording).key(seed, row)
+        flown = flights.Flights(work, slam_plan.KINDS[kind].recording)
         for judge in judges:
             for number in range(judge.runs):
-                result = judging.find(key, judge, number)
-                if result:
-                    found.setdefault((row.name, judge.name), {})[seed, number] = result
+                record = kept.find(row, judge, seed, number, kept.depends(judging, flown, row, judge, number))
+                if record:
+                    found.setdefault((row.name, judge.name), {})[seed, number] = record
     return found
 
 
@@ -69,8 +69,8 @@ def table(found):
     return tables.markdown(HEADINGS, rows)
 
 
-def show(work):
-    print(table(collect(work)))
+def show(work, kept):
+    print(table(collect(work, kept)))
 
 
 def notes(found):
@@ -78,12 +78,12 @@ def notes(found):
             for (flight, judge), results in found.items() for (seed, run), result in results.items() if result["summary"]["note"]]
 
 
-def write(work):
-    found = collect(work)
+def write(work, kept):
+    found = collect(work, kept)
     if not found:
-        raise SystemExit("there are no results of this program in %s" % work.out)
-    document_marks.write_between_marks(PAGE, "judges", table(found) + "\n", tables.program_commit(work))
+        raise SystemExit("%s has no record of these sources" % kept.path)
+    document_marks.write_between_marks(PAGE, "judges", table(found) + "\n" + tables.commits(found))
     import slam_figure
-    slam_figure.draw(found, tables.collect(work, records.Records(), "small"), FIGURE)
+    slam_figure.draw(found, tables.collect(work, records.MappingRecords(), "small"), FIGURE)
     for note in notes(found):
         print(note)

@@ -1,5 +1,4 @@
 """The tables of docs/explanation/sfm.md, from all records of the sources as they are now."""
-import json
 import statistics
 import sys
 
@@ -100,14 +99,6 @@ def depth_table(found):
 
 def show(work, kept, size):
     print(factor_table(collect(work, kept, size)))
-
-
-def program_commit(work):
-    """Of the program whose flights are shown, as their manifests have it; None where it knew none."""
-    for path in (work.out / "flight").glob("*/run/manifest.json"):
-        if json.loads((path.parent.parent / "done.json").read_text())["depends"]["program"] == work.identity:
-            return json.loads(path.read_text())["program"].get("commit") or None
-    return None
 
 
 def commits(found):

@@ -91,11 +91,11 @@ def check_records():
     row = plan.ROWS[1]
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "records.jsonl"
-        kept, flown = records.Records(path), flights.Flights(work.Work(folder, __file__, 1), plan.SIZES["small"])
+        kept, flown = records.MappingRecords(path), flights.Flights(work.Work(folder, __file__, 1), plan.SIZES["small"])
         depends = kept.depends(flown, row, ["judge", "1"])
         kept.add("small", 2, row, "colmap", depends, {"score": {"frames": 7}, "frames": frames}, "0123456789ab")
         kept.add("small", 1, row, "colmap", depends, {"score": {"frames": 8}, "frames": frames}, "0123456789ab")
-        again = records.Records(path)
+        again = records.MappingRecords(path)
         assert again.find("small", 2, row, "colmap", depends)["score"]["frames"] == 7 and len(path.read_text().splitlines()) == 2
         assert again.find("small", 3, row, "colmap", depends) is None and again.find("full", 2, row, "colmap", depends) is None
         assert again.find("small", 2, row, "colmap", again.depends(flown, row, ["judge", "2"])) is None

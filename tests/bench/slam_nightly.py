@@ -14,7 +14,8 @@ SKIPPED = 77
 
 def run(program, out, *options):
     done = subprocess.run([str(ROOT / "bench" / "demonstration" / "slam"), "--seeds", "1", "--flights", "exterior,dark", "--runs", "1",
-                           "--judges", "orbslam3_rgbd,orbslam3_monocular,kiss_icp_near,rko_lio_near", "--out", str(out), "--program", program, *options],
+                           "--judges", "orbslam3_rgbd,orbslam3_monocular,kiss_icp_near,rko_lio_near", "--out", str(out), "--records", str(out / "records.jsonl"),
+                           "--program", program, *options],
                           stdout=subprocess.PIPE, text=True)
     print(done.stdout)
     if done.returncode not in (0, SKIPPED):

@@ -11,12 +11,15 @@ import numpy as np
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent.parent / "bench" / "demonstration"))
 import carriers  # noqa: E402
 import environments  # noqa: E402
+import flights  # noqa: E402
 import plan  # noqa: E402
 import slam_figure  # noqa: E402
 import slam_judges  # noqa: E402
 import slam_plan  # noqa: E402
+import slam_records  # noqa: E402
 import slam_score  # noqa: E402
 import slam_tables  # noqa: E402
+import work  # noqa: E402
 
 RATE, SPEED = 15.0, 0.8
 
@@ -136,6 +139,28 @@ def check_figure():
     assert places == [-0.5, 0.5, 1.5, 2.5, 4.5, 5.5, 6.5] and shares == [100] * 4 + [0] * 3, (places, shares)
 
 
+def check_records():
+    """A record is found again until anything that it depends on is another, and has what the table and the figure show."""
+    row, judge = plan.ROWS[1], slam_plan.JUDGES[0]
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "records.jsonl"
+        kept, made = slam_records.SlamRecords(path), work.Work(folder, __file__, 1)
+        judging, flown = slam_judges.SlamJudges(made), flights.Flights(made, slam_plan.KINDS[judge.kind].recording)
+        depends = kept.depends(judging, flown, row, judge, 0)
+        result = {"summary": {"frames": 4}, "frames": {"into": [-0.5, 0.2, 0.7, 1.5], "followed": [True, True, False, True]}}
+        kept.add(row, judge, 2, 0, depends, "0123456789ab", result)
+        kept.add(row, judge, 2, 1, depends, "0123456789ab", {"summary": {}, "frames": {"into": None, "followed": [True, False]}})
+        again = slam_records.SlamRecords(path)
+        found = again.find(row, judge, 2, 0, depends)
+        assert found["summary"]["frames"] == 4 and found["commit"] == "0123456789ab"
+        assert slam_figure.records.shares(found["bins"], slam_records.WIDTH, 2) == [[-0.5, 0.5, 0.5, 1.5], [1, 0.5, 0.5, 1]]
+        assert again.find(row, judge, 2, 1, depends)["bins"] == [[None, 2, 1]] and again.find(row, judge, 1, 0, depends) is None
+        others = [(row, slam_plan.JUDGES[1], 0), (plan.ROWS[2], judge, 0), (row, judge, 1)]
+        assert all(again.depends(judging, flown, r, j, n) != depends for r, j, n in others)
+        again.golden = "another"
+        assert again.find(row, judge, 2, 0, again.depends(judging, flown, row, judge, 0)) is None
+
+
 def check_no_index():
     """Where no package can be had the command says so, and does not leave half an environment."""
     with tempfile.TemporaryDirectory() as folder:
@@ -167,4 +192,5 @@ if __name__ == "__main__":
     check_files()
     check_plan_and_table()
     check_figure()
+    check_records()
     check_no_index()

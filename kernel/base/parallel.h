@@ -28,8 +28,8 @@ class ThreadPool {
   bool crowded();
   // The caller waited for a thread that did not run. The next while alone is longer if this happens soon again.
   void note_crowded();
-  // Calls body(begin, end) for consecutive ranges of at most `grain` that cover [0, count), and
-  // returns when all are done. `body` must not throw. A thread that has not begun when nothing is left is not waited for.
+  // Calls body(begin, end) for consecutive ranges of `grain` that cover [0, count), the last perhaps shorter, or once for all of
+  // it, and returns when all are done. `body` must not throw. A thread that has not begun when nothing is left is not waited for.
   void run(int count, int grain, const std::function<void(int, int)>& body);
   // Calls body(0) in the caller, and meanwhile body(i), each 0 < i < count at most once, on threads that come in time. So the
   // caller must be able to do all alone. Who has not come when body(0) returns is not waited for.

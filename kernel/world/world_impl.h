@@ -36,6 +36,7 @@ struct World::Impl {
   // What the phases of the last step made; see phases/step.h.
   StepPairs step_pairs;
   StepMotions motions;
+  std::vector<std::uint8_t> touched;  // by body, for note_touching()
 
   // Each has the data that it works on from its constructor, and what the step has so far as arguments.
   Bodies bodies{types, data, blocks};
@@ -47,7 +48,7 @@ struct World::Impl {
   PairSelection pair_selection{data, settings, bodies, pairs, pool};
   ContactSearch contact_search{data, settings, bodies, pool};
   ContactSolution solution{data, settings, blocks, pool};
-  SpeedLimiter limits{data, settings};
+  SpeedLimiter limits{data, settings, pool};
   Advance advance{data, settings, bodies, blocks, pool};
   Sleep sleep{data, settings, bodies, blocks, trees, waking, pool};
   Tubes tubes{types, data, bodies, pairs, trees, simbody_trees};

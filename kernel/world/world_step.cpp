@@ -10,12 +10,21 @@ constexpr int kMostSplits = 4;  // times in a step that contacts are solved anew
 
 // A contact counts as touching when it carries an impulse.
 void World::Impl::note_touching() {
-  for (std::int32_t i : step_pairs.awake) data.bodies[i].touching = false;
-  each_solved(data, step_pairs, [this](const Contact& contact) {
-    if (contact.pressed <= 0) return;
-    for (std::int32_t i : {contact.body_a, contact.body_b}) {
-      if (i == kGround) continue;
-      data.bodies[i].touching = data.bodies[i].has_touched = true;
+  touched.assign(data.bodies.size(), 0);
+  each_solved_fact(data, step_pairs, [this](const SolvedContact& contact, const auto&) {
+    if (!contact.pressed) return;
+    touched[contact.body_a] = 1;
+    if (contact.body_b != kGround) touched[contact.body_b] = 1;
+  });
+  pool.run(int(touched.size()), 1024, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      if (touched[i] != 0) data.bodies[i].touching = data.bodies[i].has_touched = true;
+    }
+  });
+  pool.run(int(step_pairs.awake.size()), 256, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const std::int32_t i = step_pairs.awake[k];
+      if (touched[i] == 0) data.bodies[i].touching = false;
     }
   });
   trees.note_touching(step_pairs);
@@ -81,6 +90,7 @@ void World::step() {
     w.solve();
   }
   w.begin_stage(StepStage::rest);
+  w.step_pairs.note_solved(w.data.contacts, w.pool);
   w.note_touching();
   w.limits.clamp_ejections(w.step_pairs, w.motions);
   w.limits.find_rolling(w.step_pairs, w.motions);

@@ -105,8 +105,10 @@ void ContactSolution::run(StepPairs& step, WorldTrees& trees, Ties& ties, const 
                           StepMotions& motions) {
   turn_freely(step, motions);
   trees.begin(step);
-  const auto is_apart = [this](std::int32_t i) { return !data_.pairs[i].live; };
-  step.active.erase(std::remove_if(step.active.begin(), step.active.end(), is_apart), step.active.end());
+  std::size_t kept = 0;
+  for (const std::int32_t k : live_.find(int(step.active.size()), pool_, [&](int i) { return data_.pairs[step.active[i]].live; }))
+    step.active[kept++] = step.active[k];
+  step.active.resize(kept);
   sort_by_height(step);
   motions.lateness = limits.calc_lateness();
   // Pieces that are stuck in each other are pushed to and fro for ever, and others with them.

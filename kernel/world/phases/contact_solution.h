@@ -47,6 +47,7 @@ class ContactSolution {
   ThreadPool& pool_;
   IslandSubsteps islands_;
   ContactSolver solver_, finer_solvers_[kIslandKindCount];
+  WantedList live_;
   std::vector<OrderKey> keys_, scratch_;
 };
 

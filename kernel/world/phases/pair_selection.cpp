@@ -86,7 +86,13 @@ void PairSelection::find_pairs(StepPairs& step) {
 void PairSelection::select_pairs(StepPairs& step) {
   pair_states_.resize(data_.pairs.size());
   pool_.run(int(data_.pairs.size()), 1024, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) pair_states_[i] = classify(step, data_.pairs[i]);
+    for (int i = begin; i < end; ++i) {
+      Pair& pair = data_.pairs[i];
+      pair_states_[i] = classify(step, pair);
+      if (pair_states_[i] != kWaiting || !pair.live) continue;
+      clear_points(data_.contacts[i]);
+      pair.live = 0;
+    }
   });
   step.active.clear();
   for (std::size_t i = 0; i < data_.pairs.size();) {
@@ -97,10 +103,6 @@ void PairSelection::select_pairs(StepPairs& step) {
       continue;
     }
     if (state == kActive) step.active.push_back(std::int32_t(i));
-    if (state == kWaiting && data_.pairs[i].live) {
-      clear_points(data_.contacts[i]);
-      data_.pairs[i].live = 0;
-    }
     ++i;
   }
 }

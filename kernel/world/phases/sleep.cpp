@@ -112,42 +112,47 @@ void Sleep::fall_asleep(int index) {
   body.angular = {};
 }
 
-void Sleep::wake_hit(StepPairs& step) {
-  bool any = false;
-  for (std::int32_t index : step.active) {
-    const Pair& pair = data_.pairs[index];
-    if (!pair.live || pair.body_b == kGround) continue;
-    if (step.sweeps[pair.body_a].awake == step.sweeps[pair.body_b].awake) continue;
-    const Contact& contact = data_.contacts[index];
-    const Body &a = data_.bodies[contact.body_a], &b = data_.bodies[contact.body_b];
-    if (a.awake == b.awake) continue;
-    const Body& sleeper = a.awake ? b : a;
-    if (!sleeper.movable()) continue;
-    const float inverse_masses = a.inverse_mass + b.inverse_mass;
-    const float least = inverse_masses * hit_impulse(sleeper, terms(data_), contact.normal);
-    for (int i = 0; i < contact.count; ++i) {
-      const ContactPoint& p = contact.points[i];
-      const Vec3f v = b.linear + cross(b.angular, p.from_b) - a.linear - cross(a.angular, p.from_a);
-      const float approach = -dot(contact.normal, v);
-      if (p.separation - approach * settings_.solver.step > settings_.solver.rest_gap) continue;
-      // The impulse of a central plastic impact.
-      if (approach < least) continue;
-      waking_.wake(a.awake ? contact.body_b : contact.body_a);
-      any = true;
-      break;
-    }
+// The sleeper of a pair that its other body is about to hit that hard; kGround: there is none.
+std::int32_t Sleep::find_hit(const StepPairs& step, std::int32_t index) const {
+  const Pair& pair = data_.pairs[index];
+  if (!pair.live || pair.body_b == kGround) return kGround;
+  if (step.sweeps[pair.body_a].awake == step.sweeps[pair.body_b].awake) return kGround;
+  const Contact& contact = data_.contacts[index];
+  const Body &a = data_.bodies[contact.body_a], &b = data_.bodies[contact.body_b];
+  if (a.awake == b.awake) return kGround;
+  const Body& sleeper = a.awake ? b : a;
+  if (!sleeper.movable()) return kGround;
+  const float inverse_masses = a.inverse_mass + b.inverse_mass;
+  const float least = inverse_masses * hit_impulse(sleeper, terms(data_), contact.normal);
+  for (int i = 0; i < contact.count; ++i) {
+    const ContactPoint& p = contact.points[i];
+    const Vec3f v = b.linear + cross(b.angular, p.from_b) - a.linear - cross(a.angular, p.from_a);
+    const float approach = -dot(contact.normal, v);
+    if (p.separation - approach * settings_.solver.step > settings_.solver.rest_gap) continue;
+    // The impulse of a central plastic impact.
+    if (approach >= least) return a.awake ? contact.body_b : contact.body_a;
   }
-  if (!any) return;
+  return kGround;
+}
+
+void Sleep::wake_hit(StepPairs& step) {
+  const std::vector<std::int32_t>& hits =
+      wanted_.find(int(step.active.size()), pool_, [&](int k) { return find_hit(step, step.active[k]) != kGround; });
+  if (hits.empty()) return;
+  for (const std::int32_t k : hits) {
+    const std::int32_t sleeper = find_hit(step, step.active[k]);
+    if (sleeper != kGround) waking_.wake(sleeper);  // else one before has woken it
+  }
   step.list_awake(data_.bodies);
-  std::vector<std::uint8_t> listed(data_.pairs.size(), 0);
-  for (std::int32_t index : step.active) listed[index] = 1;
-  for (std::size_t i = 0; i < data_.pairs.size(); ++i) {
+  listed_.assign(data_.pairs.size(), 0);
+  for (std::int32_t index : step.active) listed_[index] = 1;
+  const std::vector<std::int32_t>& more = wanted_.find(int(data_.pairs.size()), pool_, [&](int i) {
     const Pair& pair = data_.pairs[i];
-    if (listed[i] || !pair.live) continue;
-    const bool awake =
-        data_.bodies[pair.body_a].awake || (pair.body_b != kGround && data_.bodies[pair.body_b].awake);
-    if (!awake) continue;
-    step.active.push_back(std::int32_t(i));
+    if (listed_[i] != 0 || !pair.live) return false;
+    return data_.bodies[pair.body_a].awake || (pair.body_b != kGround && data_.bodies[pair.body_b].awake);
+  });
+  for (const std::int32_t i : more) {
+    step.active.push_back(i);
     step.is_deep[i] = overlaps_deep(data_.contacts[i]);
   }
 }
@@ -157,9 +162,9 @@ void Sleep::wake_hit(StepPairs& step) {
 void Sleep::wake_changed(const StepPairs& step) {
   lost_support_.resize(data_.bodies.size());
   unsettled_.clear();
-  each_solved(data_, step, [&](const Contact& contact) {
-    if (step.sweeps[contact.body_a].awake && (contact.body_b == kGround || step.sweeps[contact.body_b].awake))
-      return;
+  each_solved_fact(data_, step, [&](const SolvedContact& facts, const auto& get) {
+    if (!facts.at_sleeper) return;
+    const Contact& contact = get();
     for (std::int32_t i : {contact.body_a, contact.body_b}) {
       if (i == kGround) continue;
       const Body& body = data_.bodies[i];

@@ -34,6 +34,7 @@ class Sleep {
   bool within_rest_tolerance(const Body& body) const;
 
  private:
+  std::int32_t find_hit(const StepPairs& step, std::int32_t pair) const;
   void wake_changed(const StepPairs& step);
   float wake_impulse(const Body& body) const;  // a contact's must change by this; unit: N s
   void find_overlapping(const StepPairs& step);
@@ -62,6 +63,8 @@ class Sleep {
   WorldTrees& trees_;
   Waking& waking_;
   ThreadPool& pool_;
+  WantedList wanted_;
+  std::vector<std::uint8_t> listed_;  // by pair, for wake_hit()
   std::vector<std::uint8_t> overlapping_, slept_, disturbed_;  // by body
   std::vector<Vec3f> lost_support_;                            // by body: of sleepers, to awake neighbours
   std::vector<std::int32_t> unsettled_;                        // sleepers whose lost_support_ is not zero

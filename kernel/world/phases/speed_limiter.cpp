@@ -2,8 +2,8 @@
 #include "kernel/world/phases/speed_limiter.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <utility>
 
 #include "kernel/solver/speed_limits.h"
 
@@ -15,6 +15,10 @@ constexpr std::int32_t kSeveral = -3;  // several pieces touch the piece
 constexpr std::uint8_t kTouches = 0;   // find_rolling(): nothing is known of the piece yet
 constexpr std::uint8_t kRolls = 1;     // find_rolling(): the piece rolls at its contacts
 constexpr std::uint8_t kPushed = 2;    // find_rolling(): the piece also has a contact where it does not roll
+
+constexpr float kNotAsked = -1;            // find_strikes(): the piece does not spin fast; unit: m/s
+
+Vec3f outwards(const Vec3f& v) { return {v.x, v.y, std::max(v.z, 0.0F)}; }
 
 // How far a velocity lies beyond those that pushes by what moves at `striker` can give a piece: see kFreeKick. Nothing
 // is beyond that leads downwards.
@@ -41,74 +45,104 @@ void SpeedLimiter::return_momentum(std::size_t piece, const Vec3f& speed, StepMo
   motions.displacements[other].linear += change * float(settings_.options.step);
 }
 
-void SpeedLimiter::clamp_ejections(const StepPairs& step, StepMotions& motions) {
-  const auto outwards = [](const Vec3f& v) { return Vec3f{v.x, v.y, std::max(v.z, 0.0F)}; };
-  const auto may_kick = [&](const Body& body) {
-    return body.awake && body.touching && body.free_index >= 0;
-  };
-  const auto speed_before = [&](const Body& body) {
-    return norm(outwards(body.linear)) + float(settings_.options.gravity * settings_.options.step);
-  };
-  const auto sinking_before = [&](const Body& body) {
-    return std::max(-body.linear.z, 0.0F) + norm(body.angular) * float(body.radius) +
-           float(settings_.options.gravity * settings_.options.step);
-  };
-  const bool any = std::any_of(step.awake.begin(), step.awake.end(), [&](std::int32_t i) {
-    const Body& body = data_.bodies[i];
-    return may_kick(body) &&
-           (norm(outwards(motions.velocities[i].linear)) > std::max(speed_before(body), kFreeKick) ||
-            -motions.velocities[i].linear.z > sinking_before(body) + kFreeKick);
+bool SpeedLimiter::may_kick(const Body& body) const { return body.awake && body.touching && body.free_index >= 0; }
+
+float SpeedLimiter::speed_before(const Body& body) const {
+  return norm(outwards(body.linear)) + float(settings_.options.gravity * settings_.options.step);
+}
+
+float SpeedLimiter::sinking_before(const Body& body) const {
+  return std::max(-body.linear.z, 0.0F) + norm(body.angular) * float(body.radius) +
+         float(settings_.options.gravity * settings_.options.step);
+}
+
+// Those that may have to be clamped. False: none goes so fast that it matters.
+bool SpeedLimiter::find_kicked(const StepPairs& step, const StepMotions& motions) {
+  std::atomic<bool> any{false};
+  kicked_.assign(data_.bodies.size(), 0);
+  pool_.run(int(step.awake.size()), 128, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const std::int32_t i = step.awake[k];
+      const Body& body = data_.bodies[i];
+      if (!may_kick(body)) continue;
+      const Vec3f& velocity = motions.velocities[i].linear;
+      const float after = norm(outwards(velocity)), before = speed_before(body);
+      const bool sinks = -velocity.z > sinking_before(body) + kFreeKick;
+      if (after > before || sinks) kicked_[i] = 1;
+      if (after > std::max(before, kFreeKick) || sinks) any = true;
+    }
   });
-  if (!any) return;
+  return any;
+}
+
+// Finds what touches them, and what these touch.
+void SpeedLimiter::look_around_kicked(const StepPairs& step) {
+  each_solved_fact(data_, step, [this](const SolvedContact& contact, const auto&) {
+    if (!contact.pressed || contact.body_b == kGround) return;
+    std::uint8_t &a = kicked_[contact.body_a], &b = kicked_[contact.body_b];
+    if (a == 1 && b == 0) b = 2;
+    if (b == 1 && a == 0) a = 2;
+  });
   fastest_.assign(data_.bodies.size(), 0);
   strikers_.assign(data_.bodies.size(), {});
-  std::vector<std::uint8_t> on_ground(data_.bodies.size(), 0);
+  on_ground_.assign(data_.bodies.size(), 0);
   neighbour_.assign(data_.bodies.size(), kNobody);
   const auto note = [this](std::int32_t body, std::int32_t other) {
     if (body == kGround) return;
     neighbour_[body] = neighbour_[body] == kNobody || neighbour_[body] == other ? other : kSeveral;
   };
-  each_solved(data_, step, [&](const Contact& contact) {
-    if (contact.pressed <= 0) return;
-    note(contact.body_a, contact.body_b);
-    note(contact.body_b, contact.body_a);
-    if (contact.body_b == kGround) {
-      on_ground[contact.body_a] = 1;
+  const auto note_speed = [this](std::int32_t body, const Vec3f& velocity) {
+    const float speed = norm(velocity);
+    if (speed > fastest_[body]) fastest_[body] = speed, strikers_[body] = velocity;
+  };
+  each_solved_fact(data_, step, [&](const SolvedContact& facts, const auto& get) {
+    const bool on_ground = facts.body_b == kGround;
+    if (!facts.pressed || (kicked_[facts.body_a] == 0 && (on_ground || kicked_[facts.body_b] == 0))) return;
+    note(facts.body_a, facts.body_b);
+    note(facts.body_b, facts.body_a);
+    if (on_ground) {
+      on_ground_[facts.body_a] = 1;
       return;
     }
-    const Body &a = data_.bodies[contact.body_a], &b = data_.bodies[contact.body_b];
-    const auto note_speed = [this](std::int32_t body, const Vec3f& velocity) {
-      const float speed = norm(velocity);
-      if (speed > fastest_[body]) fastest_[body] = speed, strikers_[body] = velocity;
-    };
+    const Body &a = data_.bodies[facts.body_a], &b = data_.bodies[facts.body_b];
+    const Contact& contact = get();
     for (int i = 0; i < contact.count; ++i) {
       const ContactPoint& p = contact.points[i];
-      note_speed(contact.body_a, b.linear + cross(b.angular, p.from_b));
-      note_speed(contact.body_b, a.linear + cross(a.angular, p.from_a));
+      note_speed(facts.body_a, b.linear + cross(b.angular, p.from_b));
+      note_speed(facts.body_b, a.linear + cross(a.angular, p.from_a));
     }
   });
+}
+
+void SpeedLimiter::clamp(std::int32_t i, StepMotions& motions) {
+  const Body& body = data_.bodies[i];
+  const float down = -motions.velocities[i].linear.z;
+  const float most_down = std::max(sinking_before(body), fastest_[i]) + kFreeKick;
+  if (on_ground_[i] != 0 && down > most_down) {
+    motions.velocities[i].linear.z *= most_down / down, motions.displacements[i].linear.z *= most_down / down;
+  }
+  const float before = speed_before(body);
+  Vec3f& velocity = motions.velocities[i].linear;
+  const float after = norm(outwards(velocity));
+  if (after <= before) return;
+  Vec3f excess = outwards(velocity) * (1 - before / after);
+  const auto allow_from = [&](const Vec3f& start) {
+    const Vec3f beyond = find_excess(velocity, start, strikers_[i]);
+    if (norm(beyond) < norm(excess)) excess = beyond;
+  };
+  allow_from({});
+  if (neighbour_[i] != kSeveral) allow_from(body.linear);
+  if (norm(excess) <= 0) return;
+  return_momentum(i, excess, motions);
+  velocity -= excess;
+  motions.displacements[i].linear -= excess * float(settings_.options.step);
+}
+
+void SpeedLimiter::clamp_ejections(const StepPairs& step, StepMotions& motions) {
+  if (!find_kicked(step, motions)) return;
+  look_around_kicked(step);
   for (std::int32_t i : step.awake) {
-    if (!may_kick(data_.bodies[i])) continue;
-    const float down = -motions.velocities[i].linear.z;
-    const float most_down = std::max(sinking_before(data_.bodies[i]), fastest_[i]) + kFreeKick;
-    if (on_ground[i] != 0 && down > most_down) {
-      motions.velocities[i].linear.z *= most_down / down, motions.displacements[i].linear.z *= most_down / down;
-    }
-    const float before = speed_before(data_.bodies[i]);
-    Vec3f& velocity = motions.velocities[i].linear;
-    const float after = norm(outwards(velocity));
-    if (after <= before) continue;
-    Vec3f excess = outwards(velocity) * (1 - before / after);
-    const auto allow_from = [&](const Vec3f& start) {
-      const Vec3f beyond = find_excess(velocity, start, strikers_[i]);
-      if (norm(beyond) < norm(excess)) excess = beyond;
-    };
-    allow_from({});
-    if (neighbour_[i] != kSeveral) allow_from(data_.bodies[i].linear);
-    if (norm(excess) <= 0) continue;
-    return_momentum(i, excess, motions);
-    velocity -= excess;
-    motions.displacements[i].linear -= excess * float(settings_.options.step);
+    if (kicked_[i] != 0 && may_kick(data_.bodies[i])) clamp(i, motions);
   }
 }
 
@@ -135,21 +169,23 @@ float SpeedLimiter::calc_most_spin(std::int32_t body) const {
 
 void SpeedLimiter::find_strikes(const StepPairs& step, const StepMotions& motions) {
   strikes_.clear();
-  const bool any = std::any_of(step.awake.begin(), step.awake.end(), [&](std::int32_t i) {
-    return norm(motions.velocities[i].angular) > kFreeSpin;
-  });
-  if (!any) return;
-  strikes_.assign(data_.bodies.size(), 0);
-  each_solved(data_, step, [this](const Contact& contact) {
-    if (contact.pressed <= 0) return;
-    const auto velocity_at = [this](std::int32_t body, const Vec3f& arm) {
-      return body == kGround ? Vec3f{} : data_.bodies[body].linear + cross(data_.bodies[body].angular, arm);
-    };
+  const std::vector<std::int32_t>& spinning = wanted_.find(
+      int(step.awake.size()), pool_, [&](int k) { return norm(motions.velocities[step.awake[k]].angular) > kFreeSpin; });
+  if (spinning.empty()) return;
+  strikes_.assign(data_.bodies.size(), kNotAsked);
+  for (const std::int32_t k : spinning) strikes_[step.awake[k]] = 0;
+  const auto spins = [this](std::int32_t body) { return body != kGround && strikes_[body] != kNotAsked; };
+  const auto velocity_at = [this](std::int32_t body, const Vec3f& arm) {
+    return body == kGround ? Vec3f{} : data_.bodies[body].linear + cross(data_.bodies[body].angular, arm);
+  };
+  each_solved_fact(data_, step, [&](const SolvedContact& facts, const auto& get) {
+    if (!facts.pressed || (!spins(facts.body_a) && !spins(facts.body_b))) return;
+    const Contact& contact = get();
     for (int i = 0; i < contact.count; ++i) {
       const ContactPoint& p = contact.points[i];
       const float closing = dot(contact.normal, velocity_at(contact.body_a, p.from_a) - velocity_at(contact.body_b, p.from_b));
       for (const std::int32_t body : {contact.body_a, contact.body_b}) {
-        if (body != kGround) strikes_[body] = std::max(strikes_[body], closing);
+        if (spins(body)) strikes_[body] = std::max(strikes_[body], closing);
       }
     }
   });
@@ -162,9 +198,9 @@ void SpeedLimiter::find_rolling(const StepPairs& step, StepMotions& motions) {
     if (rolls && motions.rolls[body] == kTouches) motions.rolls[body] = kRolls;
     if (pressed && !rolls) motions.rolls[body] = kPushed;
   };
-  each_solved(data_, step, [&note](const Contact& contact) {
-    note(contact.body_a, contact.rolls_a, contact.pressed > 0);
-    note(contact.body_b, contact.rolls_b, contact.pressed > 0);
+  each_solved_fact(data_, step, [&note](const SolvedContact& contact, const auto&) {
+    note(contact.body_a, contact.rolls_a, contact.pressed);
+    note(contact.body_b, contact.rolls_b, contact.pressed);
   });
 }
 

@@ -9,7 +9,8 @@ namespace rubble {
 
 class SpeedLimiter {
  public:
-  SpeedLimiter(const WorldData& data, const WorldSettings& settings) : data_(data), settings_(settings) {}
+  SpeedLimiter(const WorldData& data, const WorldSettings& settings, ThreadPool& pool)
+      : data_(data), settings_(settings), pool_(pool) {}
 
   // A piece squeezed out from under a heavy one must not shoot away: sideways and upwards it may become hardly
   // faster in one step than the points which touch it were before. What is pushed ahead may: along the velocity of the
@@ -29,13 +30,23 @@ class SpeedLimiter {
   float calc_most_spin(std::int32_t body) const;
 
  private:
+  bool may_kick(const Body& body) const;
+  float speed_before(const Body& body) const;
+  float sinking_before(const Body& body) const;
+  bool find_kicked(const StepPairs& step, const StepMotions& motions);
+  void look_around_kicked(const StepPairs& step);
+  void clamp(std::int32_t body, StepMotions& motions);
   void return_momentum(std::size_t piece, const Vec3f& speed, StepMotions& motions) const;
 
   const WorldData& data_;
   const WorldSettings& settings_;
+  ThreadPool& pool_;
+  WantedList wanted_;
+  std::vector<std::uint8_t> kicked_;     // by body: 1: too fast; 2: touches such a one, which may give it momentum
+  std::vector<std::uint8_t> on_ground_;  // by body
   std::vector<float> fastest_;           // by body: of the points that touch it; unit: m/s
   std::vector<Vec3f> strikers_;          // by body: velocity of that point; unit: m/s
-  std::vector<float> strikes_;           // by body: closing speed of a contact at most; empty: nothing spins fast; unit: m/s
+  std::vector<float> strikes_;           // by body that spins fast: closing speed of a contact at most; empty: none does; unit: m/s
   std::vector<std::int32_t> neighbour_;  // by body: the only one that touches it
 };
 

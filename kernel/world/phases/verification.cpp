@@ -60,8 +60,8 @@ int Sleep::count_widenings() const {
 void Sleep::spread_disturbance(const StepPairs& step) {
   const int rings = kDisturbedContacts + kMoreContacts * count_widenings();
   for (int ring = 1; ring <= rings; ++ring) {
-    each_solved(data_, step, [&](const Contact& contact) {
-      if (contact.body_b == kGround || contact.pressed <= 0) return;
+    each_solved_fact(data_, step, [&](const SolvedContact& contact, const auto&) {
+      if (contact.body_b == kGround || !contact.pressed) return;
       std::uint8_t &a = disturbed_[contact.body_a], &b = disturbed_[contact.body_b];
       if (a == ring && b == 0 && data_.bodies[contact.body_b].mass > 0) b = std::uint8_t(ring + 1);
       if (b == ring && a == 0 && data_.bodies[contact.body_a].mass > 0) a = std::uint8_t(ring + 1);

@@ -46,6 +46,15 @@ void check_names(const std::vector<SuiteRun>& runs, std::vector<Diagnostic>& mis
   }
 }
 
+// With seeds the mission's own has no effect, wherever it comes from.
+void check_seeds(const std::vector<SuiteRun>& runs, std::vector<Diagnostic>& mistakes) {
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (const std::string& text : runs[i].set)
+      if (!runs[i].seeds.empty() && text.rfind("seed=", 0) == 0)
+        mistakes.push_back({"", 0, "runs[" + std::to_string(i + 1) + "].set", "`seeds` gives the seeds of this entry",
+                            "a key besides the seed", "\"" + text + "\"", "leave one of both out"});
+}
+
 }  // namespace
 
 SuiteScript load_suite(const std::string& path, const MetricNames& metrics) {
@@ -61,6 +70,7 @@ SuiteScript load_suite(const std::string& path, const MetricNames& metrics) {
   read_table(make_suite_schema(suite.runs, metrics), table, mistakes);
   add_duplicates(lines, mistakes);
   check_names(suite.runs, mistakes);
+  check_seeds(suite.runs, mistakes);
   if (mistakes.empty() && suite.runs.empty())
     mistakes.push_back({"", 0, "runs", "no runs", "at least one", "an empty list", ""});
   locate(mistakes, path, lines);

@@ -50,6 +50,10 @@ class Batch {
                     ? "out/" + fs::path(request.of.mission).stem().string() + "_batch"
                     : request.of.out),
         progress_(choose_progress_style(request.of.options.quiet)) {
+    for (const std::string& text : request.of.overrides)
+      if (text.rfind("seed=", 0) == 0)
+        throw InputError({"", 0, "--set", "--seeds gives the seeds of a batch", "a key besides the seed", "\"" + text + "\"",
+                          "leave it out"});
     const Shard shard = request.shard.empty() ? Shard{} : parse_shard(request.shard);
     const std::uint64_t variants = sweep_.variants.size();
     for (std::size_t variant = 0; variant < variants; ++variant)

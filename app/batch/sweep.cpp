@@ -50,6 +50,9 @@ Varied parse(const std::string& text) {
   if (equals == 0 || equals == std::string::npos) fail(text, "not a key with its values");
   Varied varied;
   varied.key = text.substr(0, equals);
+  if (varied.key == "seed")
+    throw InputError({"", 0, "--vary", "the seed is varied by an option of its own", "a key besides the seed", "\"" + text + "\"",
+                      "--seeds gives the seeds, as in --seeds 1..1000 or --seeds 3,5,9"});
   const std::string rest = text.substr(equals + 1);
   const std::size_t dots = rest.find("..");
   varied.is_range = dots != std::string::npos && parse_number(rest.substr(0, dots), varied.low) &&

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <sstream>
 #include <string_view>
@@ -36,9 +35,28 @@ std::string to_text(const std::vector<T>& values) {
   return text;
 }
 
+// Of a real number, which is finite: CLI::Range takes NaN, and prints limits in 300 digits. help: what --help says of it.
+CLI::Validator real_number(const std::string& expected, const std::string& help, std::function<bool(double)> allows) {
+  const auto check = [expected, allows = std::move(allows)](std::string& text) -> std::string {
+    double value = 0;
+    const bool taken = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && allows(value);
+    return taken ? "" : "expected " + expected + ", found " + text;
+  };
+  return CLI::Validator(check, help);
+}
+
+template <typename T>
+constexpr bool is_real = std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>;
+
+void check_finite(CLI::Option& option) {
+  option.check(real_number("a finite number", "", [](double) { return true; }));
+}
+
 template <typename T>
 Option add_bound(CLI::App& command, const std::string& name, T& member, const std::string& help) {
-  Option option(*command.add_option(name, member, help), to_text(member));
+  CLI::Option* const added = command.add_option(name, member, help);
+  if constexpr (is_real<T>) check_finite(*added);
+  Option option(*added, to_text(member));
   if constexpr (!std::is_same_v<T, std::string>) option.metavar("N");  // until the command names it
   return option;
 }
@@ -47,6 +65,7 @@ template <typename T>
 Option add_several(CLI::App& command, const std::string& name, std::vector<T>& member,
                    const std::string& help) {
   CLI::Option* const option = command.add_option(name, member, help);
+  if constexpr (is_real<T>) check_finite(*option);
   if (name[0] == '-') option->allow_extra_args(false)->take_all();
   return Option(*option, to_text(member));
 }
@@ -77,15 +96,16 @@ Option& Option::within(double least, double most) {
   const auto limit = [](double value) {  // 1000000, not 1e+06
     return value == std::floor(value) ? std::to_string(std::int64_t(value)) : to_text(value);
   };
-  return option_->check(CLI::Range(least, most, limit(least) + ".." + limit(most))), *this;
+  return option_->check(real_number("a number from " + limit(least) + " to " + limit(most), limit(least) + ".." + limit(most),
+                                    [=](double value) { return least <= value && value <= most; })),
+         *this;
 }
 
 Option& Option::positive() {
-  using Limits = std::numeric_limits<double>;
-  return option_->check(CLI::Range(Limits::min(), Limits::max(), ">0")), *this;
+  return option_->check(real_number("a number above 0", ">0", [](double value) { return value > 0; })), *this;
 }
 Option& Option::non_negative() {
-  return option_->check(CLI::Range(0.0, std::numeric_limits<double>::max(), ">=0")), *this;
+  return option_->check(real_number("a number of at least 0", ">=0", [](double value) { return value >= 0; })), *this;
 }
 
 Option& Option::separated_by(char delimiter) {

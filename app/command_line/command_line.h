@@ -21,7 +21,7 @@ namespace rubble {
 // throws InputError, RunError or Stopped.
 using Action = std::function<ExitCode()>;
 
-// One option, while it is declared. Each call returns the option itself.
+// One option, while it is declared. Of real numbers only finite ones are taken. Each call returns the option itself.
 class Option {
  public:
   Option(CLI::Option& option, std::string value);

@@ -118,13 +118,17 @@ void add_jobs_options(CommandLine& line, int& jobs, RunOptions& options) {
 }
 
 void add_space_options(CommandLine& line, SpaceRequest& request) {
-  line.add("--radius", request.radii, "Radius of a robot; may be repeated").shows_default().metavar("METRES");
-  line.add("--voxel", request.voxel, "Edge of a voxel").shows_default().metavar("METRES");
+  line.add("--radius", request.radii, "Radius of a robot; may be repeated").shows_default().metavar("METRES").within(0.001, 10.0);
+  line.add("--voxel", request.voxel, "Edge of a voxel").shows_default().metavar("METRES").within(0.001, 1.0);
   line.add("--outside-radius", request.outside_radius,
            "Radius of the ball that defines the outside: the space that the ball reaches from the sky")
       .shows_default()
-      .metavar("METRES");
-  line.add("--memory", request.memory_gib, "Largest memory. The command refuses to start if it needs more").shows_default().metavar("GIB");
+      .metavar("METRES")
+      .within(0.2, 10.0);
+  line.add("--memory", request.memory_gib, "Largest memory. The command refuses to start if it needs more")
+      .shows_default()
+      .metavar("GIB")
+      .positive();
 }
 
 void add_score_options(CommandLine& line, ScoreOutput& output) {

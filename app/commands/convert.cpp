@@ -1,6 +1,5 @@
 // `rubble convert`: a recorded dataset in further formats, written by the recorders of `rubble run`.
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 
 #include "app/command_line/command.h"
@@ -10,6 +9,7 @@
 #include "app/mission/finished_run.h"
 #include "app/mission/resolved_mission.h"
 #include "app/pipeline/recorders.h"
+#include "app/provenance/earlier_files.h"
 #include "app/robots/robot_log.h"
 #include "app/support/print.h"
 #include "app/support/run_request.h"
@@ -81,19 +81,6 @@ void check_count(const FinishedRun& saved, int expected, int found) {
                     std::to_string(found), "`rubble info " + saved.folder + "` finds damaged files"});
 }
 
-// The dataset is read while the new files are written: its folder, and what it is in, cannot be theirs.
-void check_apart(const std::string& dataset, const std::string& out) {
-  namespace fs = std::filesystem;
-  std::error_code failed;
-  const fs::path source = fs::canonical(dataset, failed), target = fs::weakly_canonical(out, failed);
-  for (fs::path above = source; !above.empty(); above = above.parent_path()) {
-    if (above == target)
-      throw InputError({out, 0, "--out", "would replace the dataset that is converted", "a folder beside or below " + dataset, "",
-                        "without --out the files are in " + dataset + "/convert"});
-    if (above == above.parent_path()) break;
-  }
-}
-
 // What an earlier conversion left is ours to replace.
 void prepare_conversion(const std::string& out, bool force) {
   std::vector<std::string> files;
@@ -124,7 +111,7 @@ ExitCode convert(const FolderRequest& request, const ConvertRequest& to) {
   for (const MountedCamera& camera : scenario.cameras) intrinsics.push_back(camera.camera.intrinsics());
   DatasetPlayer player({saved.folder, recording, intrinsics}, samples_for(to.formats, scenario, saved));
   const std::string out = output_folder_of(to.out, request.folder, "convert");
-  check_apart(request.folder, out);
+  refuse_run_folder(out, request.folder, "convert");
   prepare_conversion(out, to.force);
   const std::vector<int> frames = count_recorded(saved, recording, scenario);
   const std::string title = recording_title(saved.manifest.provenance.script.path, scenario.seed, pile);

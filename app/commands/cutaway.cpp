@@ -10,6 +10,7 @@
 #include "app/command_line/common_options.h"
 #include "app/measures/pile_section.h"
 #include "app/mission/finished_run.h"
+#include "app/provenance/earlier_files.h"
 #include "app/scene/build_scene.h"
 #include "app/support/drawing_device.h"
 #include "app/support/print.h"
@@ -181,6 +182,9 @@ double find_middle(const PileState& pile) {
 }
 
 ExitCode draw_cutaway(const FolderRequest& request, const CutawayRequest& cutaway) {
+  const std::string path = cutaway.out.empty() ? request.folder + "/cutaway.png" : cutaway.out;
+  check_picture_name(path);
+  refuse_recorded_file(path, "--out");
   const FinishedRun saved = open_finished_run(request.folder);
   const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
   const PileState pile = load_pile_of(saved);
@@ -207,7 +211,6 @@ ExitCode draw_cutaway(const FolderRequest& request, const CutawayRequest& cutawa
       note, sizeof note,
       "cut at y = %.2f m; red: what the cut went through; the person is %.2f m tall, the bar 1 m%s",
       y, kPerson, street ? "; without the surroundings" : "");
-  const std::string path = cutaway.out.empty() ? request.folder + "/cutaway.png" : cutaway.out;
   write_picture_sheet(path, cutaway.title, {{picture.shrunk(), "", note}}, 1);
   print_out("%s\n", path.c_str());
   return ExitCode::done;

@@ -6,6 +6,7 @@
 #include "app/command_line/common_options.h"
 #include "app/control/robot_control.h"
 #include "app/mission/finished_run.h"
+#include "app/provenance/earlier_files.h"
 #include "app/simulators/build_sim_scene.h"
 #include "app/support/print.h"
 #include "app/support/progress.h"
@@ -76,11 +77,15 @@ ExitCode export_finished_pile(const FolderRequest& request, const ExportRequest&
   const DynamicChoice dynamic = parse_dynamic(to.dynamic, "--dynamic");
   std::vector<std::string> names;
   for (const MeshFormat& format : formats) names.push_back(format.name);
+  if (dynamic.kind != DynamicChoice::Kind::none && !needs_scene(names))
+    throw InputError({"", 0, "--dynamic", "has no effect: meshes have no pieces that move", "a --format of sdf, mjcf, usd or urdf",
+                      names.front(), ""});
   const FinishedRun saved = open_finished_run(request.folder);
   ResolvedMission mission;
   PileState pile;
   const BuiltScene built = build_model(request, saved, names, dynamic, mission, pile);
   const std::string out = output_folder_of(to.out, request.folder, "export");
+  refuse_run_folder(out, request.folder, "export");
   prepare(out, to.force);
   Progress progress(choose_progress_style(request.options.quiet));
   progress.start("export");

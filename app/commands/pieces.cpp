@@ -6,6 +6,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/mission/finished_run.h"
+#include "app/provenance/earlier_files.h"
 #include "app/scene/build_scene.h"
 #include "app/support/print.h"
 #include "io/base/atomic_file.h"
@@ -117,6 +118,7 @@ bool is_parquet(const std::string& path) {
 
 ExitCode list_pieces(const FolderRequest& request, const PiecesRequest& to) {
   const bool parquet = is_parquet(to.out);
+  if (!to.out.empty()) refuse_recorded_file(to.out, "--out");
   const FinishedRun saved = open_finished_run(request.folder);
   const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
   const PileState pile = load_pile_of(saved, assets);

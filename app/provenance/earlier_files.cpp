@@ -80,6 +80,37 @@ void add_stated(const std::string& folder, std::vector<std::string>& files) {
     if (is_name_of_run(item.key())) files.push_back(item.key());
 }
 
+bool holds_run(const fs::path& folder) {
+  std::error_code failed;
+  return fs::exists(folder / "manifest.json", failed) || fs::exists(folder / "unfinished/run.json", failed);
+}
+
+// Absolute, links resolved as far as there is something.
+fs::path resolve(const fs::path& path) {
+  std::error_code failed;
+  const fs::path whole = fs::weakly_canonical(fs::absolute(path, failed), failed);
+  return whole.has_filename() ? whole : whole.parent_path();
+}
+
+// Whether a run recorded the file `name` of its folder, or files in a folder of that name.
+bool is_recorded(const fs::path& run, const std::string& name) {
+  if (name.rfind("unfinished/", 0) == 0) return true;
+  const std::vector<std::string> files = files_of_earlier_run(run.string());
+  return std::any_of(files.begin(), files.end(), [&](const std::string& file) {
+    std::error_code failed;
+    return (file == name || file.rfind(name + "/", 0) == 0) && fs::exists(fs::symlink_status(run / file, failed));
+  });
+}
+
+// The folder of the run that recorded what is at `path`; empty: none did. path: of resolve().
+fs::path find_run_of(const fs::path& path) {
+  for (fs::path run = path.parent_path(); !run.empty(); run = run.parent_path()) {
+    if (holds_run(run) && is_recorded(run, path.lexically_relative(run).generic_string())) return run;
+    if (run == run.parent_path()) break;
+  }
+  return {};
+}
+
 }  // namespace
 
 const std::vector<std::string>& usual_run_files() {
@@ -143,6 +174,36 @@ void refuse_foreign_recordings(const std::string& folder) {
     throw InputError({path.string(), 0, "", "has files that the earlier run did not write", "",
                       files.empty() ? "" : files.front(), "move it elsewhere"});
   }
+}
+
+// What is at the path is replaced: a link by its name, not what it leads to.
+void refuse_recorded_file(const std::string& path, const std::string& option) {
+  std::error_code failed;
+  const fs::path whole = fs::absolute(path, failed);
+  const fs::path run = find_run_of(resolve(whole.parent_path()) / whole.filename());
+  if (run.empty()) return;
+  throw InputError({path, 0, option, "would replace a file that a run recorded", "a name that no file of the run has", "",
+                    "the run is in " + run.string()});
+}
+
+void refuse_run_folder(const std::string& out, const std::string& dataset, const std::string& command) {
+  const fs::path source = resolve(dataset), target = resolve(out);
+  const std::string hint = "without --out the files are in " + (fs::path(dataset) / command).string();
+  for (fs::path above = source; !above.empty(); above = above.parent_path()) {
+    if (above == target)
+      throw InputError({out, 0, "--out", "would replace the dataset that is " + command + "ed",
+                        "a folder beside or below " + dataset, "", hint});
+    if (above == above.parent_path()) break;
+  }
+  const std::string expected = "a new folder, or one of an earlier `rubble " + command + "`";
+  if (holds_run(target)) throw InputError({out, 0, "--out", "would replace files of the run in it", expected, "", hint});
+  if (const fs::path run = find_run_of(target); !run.empty())
+    throw InputError({out, 0, "--out", "would replace files of the run in " + run.string(), expected, "", hint});
+  for (const std::string& name : recording_folders())
+    for (const std::string& file : list_plain_files(out, name))
+      if (const fs::path inside = fs::path(out) / file; inside.filename() == "manifest.json")
+        throw InputError({out, 0, "--out", "would replace files of the run in " + inside.parent_path().string(), expected, "",
+                          hint});
 }
 
 }  // namespace rubble

@@ -32,4 +32,11 @@ void remove_folder_of_killed_run(const std::string& path);
 // did not write: to write there, they would have to go.
 void refuse_foreign_recordings(const std::string& folder);
 
+// Throws InputError when a run, finished or not, recorded the file `path` that the option `option` names.
+void refuse_recorded_file(const std::string& path, const std::string& option);
+
+// For `rubble COMMAND`, "convert" or "export", which replaces files below `out`. Throws InputError when that is the
+// dataset, a folder that the dataset is in, the folder of another run or a part of one.
+void refuse_run_folder(const std::string& out, const std::string& dataset, const std::string& command);
+
 }  // namespace rubble

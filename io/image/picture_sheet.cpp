@@ -5,6 +5,7 @@
 #include "io/base/atomic_file.h"
 #include "io/image/image_file.h"
 #include "io/image/lettering.h"
+#include "kernel/base/error.h"
 
 namespace rubble {
 namespace {
@@ -33,6 +34,15 @@ cv::Mat as_matrix(const RgbImage& image) {
 }
 
 }  // namespace
+
+void check_picture_name(const std::string& path) {
+  for (const char* ending : {".png", ".jpg", ".jpeg"})
+    if (ends_with(path, ending)) return;
+  const std::size_t dot = path.find_last_of("./");
+  const bool has_ending = dot != std::string::npos && path[dot] == '.';
+  throw InputError({path, 0, "--out", "the name says no format of pictures", "a file that ends with .png, .jpg or .jpeg",
+                    has_ending ? path.substr(dot) : "no ending", ""});
+}
 
 void write_picture_sheet(const std::string& path, const std::string& title,
                          const std::vector<SheetTile>& tiles, int columns) {

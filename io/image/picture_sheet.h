@@ -14,6 +14,9 @@ struct SheetTile {
   std::string note;  // below the name, fainter
 };
 
+// Throws InputError for a file that --out names and that ends neither with .png nor with .jpg or .jpeg.
+void check_picture_name(const std::string& path);
+
 // The tiles, row by row, as a JPEG where the path ends with .jpg or .jpeg, else as a PNG. Throws
 // RunError when it cannot be written. columns: range: at least 1; title: printed at the top; ASCII
 void write_picture_sheet(const std::string& path, const std::string& title,

@@ -125,6 +125,9 @@ TEST(AssetsShow, DrawsEveryAssetOnASheet) {
   const std::string png = read_file(scratch / "sheet.png");
   ASSERT_GT(png.size(), 5000u);
   EXPECT_EQ(png.substr(1, 3), "PNG");
+  const Outcome other = run_rubble("assets show " + scratch.path().string() + " --out " + (scratch / "sheet.bmp"));
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_NE(other.err.find("expected a file that ends with .png, .jpg or .jpeg, found .bmp"), std::string::npos) << other.err;
 }
 
 TEST(Assets, AreFoundByTheNameOfABundledPack) {

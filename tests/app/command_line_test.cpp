@@ -138,6 +138,31 @@ TEST(CommandLine, SaysWhatIsWrongWithASeed) {
   EXPECT_EQ(run_rubble("check scripts/small.lua --seed 9223372036854775807").exit_code, 0);
 }
 
+// Where the command states a range, and where it states none; before anything is read.
+TEST(CommandLine, TakesNoNumberThatIsNoneOrOutOfRange) {
+  const std::pair<const char*, const char*> mistakes[] = {
+      {"cutaway none --y nan", "--y: expected a finite number, found nan"},
+      {"cutaway none --y 1001", "--y: expected a number from -1000 to 1000, found 1001"},
+      {"eval trajectory a b --max-difference nan", "--max-difference: expected a finite number, found nan"},
+      {"eval trajectory a b --max-difference -1", "--max-difference: expected a number of at least 0, found -1"},
+      {"eval trajectory a b --segments 5,0", "--segments: expected a number above 0, found 0"},
+      {"eval trajectory a b --segments 5,inf", "--segments: expected a finite number, found inf"},
+      {"settle none --checkpoint-every 1e999", "--checkpoint-every: expected a finite number, found 1e999"},
+      {"voids none --radius nan", "--radius: expected a finite number, found nan"},
+      {"voids none --outside-radius nan", "--outside-radius: expected a finite number, found nan"},
+      {"voids none --outside-radius -1", "--outside-radius: expected a number from 0.2 to 10, found -1"},
+      {"voids none --outside-radius 0.1", "--outside-radius: expected a number from 0.2 to 10, found 0.1"},
+      {"voids none --voxel 0", "--voxel: expected a number from 0.001 to 1, found 0"},
+      {"voids none --memory 0", "--memory: expected a number above 0, found 0"},
+      {"eval map none none --outside-radius -1", "--outside-radius: expected a number from 0.2 to 10, found -1"},
+      {"eval map none none --memory -4", "--memory: expected a number above 0, found -4"}};
+  for (const auto& [command, message] : mistakes) {
+    const Outcome refused = run_rubble(command);
+    EXPECT_EQ(refused.exit_code, 1) << command;
+    EXPECT_NE(refused.err.find(message), std::string::npos) << command << "\n" << refused.err;
+  }
+}
+
 TEST(CommandLine, KnowsWhatWasMeant) {
   const Outcome command = run_rubble("rn scripts/small.lua");
   EXPECT_EQ(command.exit_code, 1);
@@ -206,7 +231,7 @@ TEST(CommandLine, TheReferenceOfCommandsIsUpToDate) {
   EXPECT_EQ(page.exit_code, 0) << page.err;
   EXPECT_TRUE(page.out == read_file(RUBBLE_SOURCE_DIR "/docs/reference/commands.md"))
       << "run: cmake --build build/release --target command_reference";
-  for (const char* part : {"## `rubble eval map`\n", "|`--voxel METRES`|Edge of a voxel (default: 0.05).|", "`rubble run mission [OPTION] ...`",
+  for (const char* part : {"## `rubble eval map`\n", "|`--voxel METRES`|Edge of a voxel (default: 0.05); 0.001..1.|", "`rubble run mission [OPTION] ...`",
                            "; 0..256.|", "|`4`|"})
     EXPECT_NE(page.out.find(part), std::string::npos) << part;
 }

@@ -115,6 +115,20 @@ TEST(Convert, RefusesWhatCannotBe) {
   EXPECT_EQ(itself.exit_code, 1);
   EXPECT_IN("would replace the dataset that is converted", itself.err);
   EXPECT_TRUE(fs::exists(scratch / "tiny/mission.bag"));
+  // Nor does it replace files of another run, of a part of one, or of one below.
+  run_tiny(scratch, "other");
+  run_tiny(scratch, "above/tum");
+  fs::copy(dataset(), scratch / "many", fs::copy_options::recursive);
+  const auto count_files = [&](const char* out) { return std::distance(fs::recursive_directory_iterator(scratch / out), {}); };
+  for (const char* out : {"other", "many/frames", "above"}) {
+    const auto files = count_files(out);
+    const Outcome taken = run_rubble("convert " + (scratch / "tiny") + " --to tum --force --quiet --out " + (scratch / out));
+    EXPECT_EQ(taken.exit_code, 1) << out;
+    EXPECT_IN("--out: would replace files of the run in", taken.err);
+    EXPECT_EQ(count_files(out), files) << out;
+  }
+  EXPECT_EQ(run_rubble("convert " + (scratch / "tiny") + " --to tum --quiet --out " + (scratch / "other/tum_too")).exit_code, 0);
+  EXPECT_EQ(run_rubble("convert " + (scratch / "tiny") + " --to tum --force --quiet --out " + (scratch / "other/tum_too")).exit_code, 0);
   // Depth of the usual bag is in millimetres, which is said.
   const Outcome rounded = run_rubble("convert " + (scratch / "tiny") + " --to webdataset --quiet");
   EXPECT_EQ(rounded.exit_code, 0) << rounded.err;
@@ -193,6 +207,14 @@ TEST(Pieces, AreATableWithTheirMasses) {
     EXPECT_LT(number(19), 1);
   }
   EXPECT_EQ(rows, 8);
+  const std::string labels = read_file(dataset() + "/labels.csv");
+  const Outcome recorded = run_rubble("pieces " + dataset() + " --out " + dataset() + "/labels.csv");
+  EXPECT_EQ(recorded.exit_code, 1);
+  EXPECT_IN("labels.csv: --out: would replace a file that a run recorded", recorded.err);
+  EXPECT_EQ(read_file(dataset() + "/labels.csv"), labels);
+  const ScratchFolder scratch;
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(run_rubble("pieces " + dataset() + " --out " + (scratch / "labels.csv")).exit_code, 0);
+  EXPECT_EQ(read_file(scratch / "labels.csv"), table.out);
 }
 
 }  // namespace convert_test

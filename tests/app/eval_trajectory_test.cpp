@@ -188,6 +188,10 @@ TEST(EvalTrajectory, StampsKittisPosesAndDrawsThem) {
   write_file(scratch / "times.txt", times);
   write_file(scratch / "slam.txt", tum);
   const std::string both = "eval trajectory " + (scratch / "slam.txt") + " " + (scratch / "00.txt");
+  const Outcome picture = run_rubble(both + " --times " + (scratch / "times.txt") + " --plot " + (scratch / "p.png"));
+  EXPECT_EQ(picture.exit_code, 1);
+  EXPECT_NE(picture.err.find("--plot: the name says another format: expected a file that ends with .svg, found .png"), std::string::npos)
+      << picture.err;
   const Outcome run = run_rubble(both + " --times " + (scratch / "times.txt") + " --segments 2,99 --json --plot " + (scratch / "p.svg"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);

@@ -79,6 +79,29 @@ TEST_F(Readers, ExportWritesEveryFormatOfAFinishedRun) {
   EXPECT_NE(unknown.err.find("stl, ply, obj, glb, sdf, mjcf, usd, urdf"), std::string::npos) << unknown.err;
 }
 
+// `--force` is for what an earlier export left.
+TEST_F(Readers, ExportReplacesNoFileOfARun) {
+  const std::string manifest = read_file(file("manifest.json")), stl = read_file(file("pile.stl"));
+  const Outcome itself = run_rubble("export " + file("") + " --format ply --quiet --force --out " + file(""));
+  EXPECT_EQ(itself.exit_code, 1);
+  EXPECT_NE(itself.err.find("--out: would replace the dataset that is exported"), std::string::npos) << itself.err;
+  const std::string other = *scratch_ / "other";
+  ASSERT_EQ(run_rubble("settle scripts/small.lua --quiet --out " + other).exit_code, 0);
+  const std::string pile = read_file(other + "/pile.stl");
+  const Outcome taken = run_rubble("export " + file("") + " --format ply --quiet --force --out " + other);
+  EXPECT_EQ(taken.exit_code, 1);
+  EXPECT_NE(taken.err.find("--out: would replace files of the run in it"), std::string::npos) << taken.err;
+  EXPECT_TRUE(read_file(other + "/pile.stl") == pile);
+  EXPECT_TRUE(read_file(file("pile.stl")) == stl);
+  EXPECT_EQ(read_file(file("manifest.json")), manifest);
+}
+
+TEST_F(Readers, ExportOfMeshesRefusesADynamicChoice) {
+  const Outcome refused = run_rubble("export " + file("") + " --format stl,ply --dynamic all --out " + (*scratch_ / "still"));
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.err.find("--dynamic: has no effect"), std::string::npos) << refused.err;
+}
+
 // All, none, and those near a place; every mass is that of the pile.
 TEST_F(Readers, ExportFreesThePiecesThatAreAskedFor) {
   const auto count_free = [&](const std::string& choice, double& mass) {

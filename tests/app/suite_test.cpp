@@ -56,6 +56,15 @@ TEST_F(Suite, HoldsRunsToTheirGoldenHashesAndTakesNewOnesOnRequest) {
   EXPECT_EQ(run().exit_code, 0);
 }
 
+TEST_F(Suite, TakesTheSeedFromOnePlace) {
+  write_suite("golden = \"none\", set = { \"seed=7\" }");
+  EXPECT_EQ(run().exit_code, 0);
+  write_suite("golden = \"none\", seeds = \"1..2\", set = { \"seed=7\" }");
+  const Outcome both = run();
+  EXPECT_EQ(both.exit_code, 1);
+  EXPECT_IN("s.lua:2: runs[1].set: `seeds` gives the seeds of this entry", both.err);
+}
+
 // By what the golden file keeps: the piece, the frame and its channel. By an earlier run's datasets: the
 // number of the piece, and the pixel.
 TEST_F(Suite, NamesTheFirstPieceFrameAndPixelThatDiffer) {

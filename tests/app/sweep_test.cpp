@@ -107,6 +107,8 @@ TEST(Sweep, CombinesPointsWithLists) {
 
 TEST(Sweep, SaysWhatIsWrong) {
   EXPECT_IN("--vary", mistake_of({"fogdensity"}, 0));
+  EXPECT_IN("--seeds gives the seeds", mistake_of({"seed=1,7"}, 0));
+  EXPECT_IN("--seeds gives the seeds", mistake_of({"seed=1..7"}, 3));
   EXPECT_IN("a value is empty", mistake_of({"fogdensity=1,,2"}, 0));
   EXPECT_IN("a value occurs twice", mistake_of({"fogdensity=1,2,1"}, 0));
   EXPECT_IN("varied twice", mistake_of({"a=1,2", "a=3,4"}, 0));
@@ -203,6 +205,9 @@ TEST_F(SweptBatch, RefusesBadValuesBeforeItBegins) {
   EXPECT_FALSE(fs::exists(scratch / "a/v1_seed_1"));
   EXPECT_EQ(run_rubble(batch("a", "--vary nothing.there=1,2")).exit_code, 1);
   EXPECT_EQ(run_rubble(batch("a", "--samples 3")).exit_code, 1);
+  const Outcome seed = run_rubble(batch("a", "--pile-only --set seed=7"));
+  EXPECT_EQ(seed.exit_code, 1);
+  EXPECT_IN("--seeds gives the seeds of a batch", seed.err);
   ASSERT_EQ(run_rubble(batch("b", "--pile-only --shard 1/8")).exit_code, 0);
   const Outcome other = run_rubble(batch("b", "--pile-only --vary wetness=0,1"));
   EXPECT_EQ(other.exit_code, 1);

@@ -53,6 +53,15 @@ TEST_F(View, HoldsThePiecesTheWayAndPictures) {
     EXPECT_EQ(page.find(outside), std::string::npos) << outside << " leads out of the page";
 }
 
+TEST_F(View, ReplacesNoFileOfTheRun) {
+  const std::string manifest = read_file(scratch / "a/manifest.json");
+  const Outcome refused = run_rubble("view " + (scratch / "a") + " --out " + (scratch / "a/../a/manifest.json"));
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_IN("--out: would replace a file that a run recorded", refused.err);
+  EXPECT_EQ(read_file(scratch / "a/manifest.json"), manifest);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(run_rubble("view " + (scratch / "a") + " --frames 0 --out " + (scratch / "a/v.html")).exit_code, 0);
+}
+
 // Two cameras on a rover: the way and the pictures of each, and the links of the robot with a pose for each moment.
 TEST_F(View, HoldsTheCamerasOfARigAndTheRobotsLinks) {
   write_file(scratch / "rover.lua", R"(return rubble.mission {

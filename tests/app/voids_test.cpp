@@ -63,6 +63,12 @@ TEST(Cutaway, DrawsARunsPile) {
   const Outcome drawn = run_rubble("cutaway " + (scratch / "run") + " --width 300 --out " + (scratch / "c.png"));
   EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
   EXPECT_EQ(read_file(scratch / "c.png").substr(1, 3), "PNG");
+  for (const char* name : {"c.gif", "c.bmp", "c"}) {
+    const Outcome other = run_rubble("cutaway " + (scratch / "run") + " --out " + (scratch / name));
+    EXPECT_EQ(other.exit_code, 1) << name;
+    EXPECT_NE(other.err.find("expected a file that ends with .png, .jpg or .jpeg"), std::string::npos) << other.err;
+    EXPECT_FALSE(fs::exists(scratch / name));
+  }
   const Outcome beside = run_rubble("cutaway " + (scratch / "run") + " --y 3");
   EXPECT_EQ(beside.exit_code, 1);
   EXPECT_NE(beside.err.find("--y: the plane cuts no piece"), std::string::npos) << beside.err;

@@ -11,6 +11,7 @@
 #include "app/assets/assets_tree.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/provenance/earlier_files.h"
 #include "app/support/drawing_device.h"
 #include "app/support/print.h"
 #include "app/support/run_request.h"
@@ -186,6 +187,9 @@ struct AssetsShowRequest {
 ExitCode show_pack(const AssetsShowRequest& request) {
   const std::vector<Material> materials = load_materials(bundled_assets_folder() + "/materials.lua");
   const AssetPack pack = load_asset_pack(find_pack(request.pack), materials);
+  const std::string path = request.out.empty() ? pack.name + ".png" : request.out;
+  check_picture_name(path);
+  refuse_recorded_file(path, "--out");
   RunContext context(request.options);
   Progress& progress = context.progress;
   progress.start("assets");
@@ -217,7 +221,6 @@ ExitCode show_pack(const AssetsShowRequest& request) {
                                                           std::to_string(order.size()));
   }
   progress.finish(std::to_string(tiles.size()) + " pictures");
-  const std::string path = request.out.empty() ? pack.name + ".png" : request.out;
   write_picture_sheet(path, "pack " + pack.name + ", " + std::to_string(tiles.size()) +
                                 (request.collision ? " assets: the parts that collide" : " assets"),
                       tiles, kColumns);

@@ -5,6 +5,7 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/commands/eval/score_output.h"
 #include "app/eval/map/map_report.h"
 #include "app/eval/scores/saved_surface.h"
 #include "app/eval/scores/surface_score.h"
@@ -124,7 +125,7 @@ void print_map(const MapRequest& request, const MapFindings& findings, const Voi
 
 ExitCode eval_map(const MapRequest& request) {
   stop_on_signals();
-  for (const std::string& path : request.output.files) check_score_file(path);
+  check_score_files(request.output);
   PlyMesh map = load_ply(request.map);
   const SavedSurface surface(request.dataset, request.asset_packs);
   load_views(surface.saved, request);  // complains before anything takes long

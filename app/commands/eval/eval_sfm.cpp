@@ -51,7 +51,7 @@ ScoreRow score_dataset(const std::string& dataset, const SfmRequest& request) {
 }
 
 ExitCode eval_sfm(const SfmRequest& request) {
-  for (const std::string& path : request.output.files) check_score_file(path);
+  check_score_files(request.output);
   if (request.datasets.size() > 1 && std::filesystem::path(request.model).is_absolute())
     throw InputError({"", 0, "--model", "is one folder for several datasets",
                       "a path inside each dataset", request.model, ""});

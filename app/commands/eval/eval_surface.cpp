@@ -18,7 +18,7 @@ struct SurfaceRequest {
 
 ExitCode eval_surface(const SurfaceRequest& request) {
   constexpr double kSpacing = 0.02;  // unit: m
-  for (const std::string& path : request.output.files) check_score_file(path);
+  check_score_files(request.output);
   const SfmGroundTruth truth = load_sfm_ground_truth(request.dataset);
   PlyMesh mesh = load_ply(request.mesh);
   if (!request.align.empty()) align_to_world(request.align, truth, mesh.positions);

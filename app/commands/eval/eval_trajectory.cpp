@@ -1,4 +1,5 @@
 // `rubble eval trajectory`: an estimate against the truth.
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -6,6 +7,7 @@
 #include "app/command_line/common_options.h"
 #include "app/eval/scores/trajectory_doubts.h"
 #include "app/eval/scores/trajectory_error.h"
+#include "app/provenance/earlier_files.h"
 #include "app/report/svg_plot.h"
 #include "app/support/print.h"
 #include "io/base/atomic_file.h"
@@ -86,7 +88,16 @@ void print_table(const TrajectoryError& e) {
   print_out("RPE, rotation               %.6f degrees\n", e.rpe_rot_rmse_deg);
 }
 
+void check_plot_name(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending != ".svg")
+    throw InputError({path, 0, "--plot", "the name says another format", "a file that ends with .svg",
+                      ending.empty() ? "no ending" : ending, ""});
+  refuse_recorded_file(path, "--plot");
+}
+
 ExitCode eval_trajectory(const TrajectoryRequest& request) {
+  if (!request.plot.empty()) check_plot_name(request.plot);
   ComparedTracks tracks{request.estimate, request.truth,
                               load_recorded_trajectory(request.estimate, request.columns),
                               load_recorded_trajectory(request.truth, request.columns)};

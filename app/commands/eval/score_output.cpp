@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "app/provenance/earlier_files.h"
 #include "app/support/print.h"
 
 namespace rubble {
@@ -23,6 +24,13 @@ void add_surface_cells(const std::optional<SurfaceScore>& s, std::vector<ScoreCe
                    s ? std::optional<double>(s->median) : std::nullopt, 4});
   cells.push_back({"completeness_5cm_percent", "visible surface covered within 5 cm, %",
                    percent(&SurfaceScore::completeness_5cm), 1});
+}
+
+void check_score_files(const ScoreOutput& output) {
+  for (const std::string& path : output.files) {
+    check_score_file(path);
+    refuse_recorded_file(path, "--out");
+  }
 }
 
 void print_score(const std::vector<ScoreRow>& rows, const ScoreOutput& output) {

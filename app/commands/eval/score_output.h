@@ -1,4 +1,4 @@
-// What the scores of `rubble eval sfm` and `rubble eval surface` have in common.
+// What the scores of `rubble eval sfm`, `rubble eval surface` and `rubble eval map` have in common.
 #pragma once
 
 #include <optional>
@@ -16,6 +16,9 @@ std::string name_of(const std::string& path);
 
 // Shares, median distance and completeness; of nothing: empty cells.
 void add_surface_cells(const std::optional<SurfaceScore>& score, std::vector<ScoreCell>& cells);
+
+// Before anything takes long. Throws InputError for a file of another kind, and for one that a run recorded.
+void check_score_files(const ScoreOutput& output);
 
 // To the files that were asked for, and to standard output.
 void print_score(const std::vector<ScoreRow>& rows, const ScoreOutput& output);

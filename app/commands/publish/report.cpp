@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/command_line/command.h"
+#include "app/provenance/earlier_files.h"
 #include "app/report/batch_report.h"
 #include "app/support/print.h"
 #include "io/base/atomic_file.h"
@@ -19,6 +20,7 @@ struct ReportRequest {
 ExitCode write_report(const ReportRequest& request) {
   namespace fs = std::filesystem;
   const std::string path = request.out.empty() ? request.folder + "/report.html" : request.out;
+  refuse_recorded_file(path, "--out");
   ReportOptions options = request.options;
   const std::string way = fs::proximate(request.folder, fs::absolute(path).parent_path()).string();
   options.way = way == "." ? "" : way + "/";

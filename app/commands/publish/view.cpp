@@ -4,6 +4,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/mission/finished_run.h"
+#include "app/provenance/earlier_files.h"
 #include "app/support/print.h"
 #include "app/view/dataset_page.h"
 #include "io/base/atomic_file.h"
@@ -22,9 +23,10 @@ ExitCode write_page(const ViewRequest& request) {
   if (three_code().empty())
     throw RunError(
         "this program was built without three.js: install libjs-three and build it again");
+  const std::string path = request.out.empty() ? request.folder + "/view.html" : request.out;
+  refuse_recorded_file(path, "--out");
   const FinishedRun saved = open_finished_run(request.folder);
   const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
-  const std::string path = request.out.empty() ? request.folder + "/view.html" : request.out;
   write_text_file(path, make_dataset_page(saved, assets, request.options));
   if (const int others = count_voids_of_other_piles(saved); others > 0)
     print_err("warning: %d surfaces in %s/voids are of another pile, or do not say of which: left out; `rubble voids %s "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "io/import/text_scan.h"
 #include "kernel/base/error.h"
@@ -21,6 +22,17 @@ constexpr std::uint64_t kLargestLibrary = std::uint64_t(64) << 20;  // unit: byt
 // Keywords whose effect is not drawn, and that every exporter writes: not worth a note.
 constexpr std::string_view kSilent[] = {"ka", "illum", "ni", "sharpness", "tf", "km", "ps", "pc", "pcr", "aniso", "anisor",
                                         "map_ka", "map_aat", "pbr"};
+
+// Keywords with numbers: `most` or one of them, from 0 to `largest`.
+struct NumberKey {
+  std::string_view keyword;
+  std::size_t most;
+  float largest;
+};
+constexpr float kAnySize = std::numeric_limits<float>::max();
+constexpr NumberKey kNumberKeys[] = {{"kd", 3, 1}, {"ks", 3, 1}, {"ke", 3, kAnySize}, {"ns", 1, kAnySize},
+                                     {"pr", 1, 1}, {"pm", 1, 1}, {"d", 1, 1},         {"tr", 1, 1}};
+constexpr float kRounding = 1e-3f;  // by which exporters exceed 1
 
 // Options of images that take as many arguments; -o, -s and -t take up to three numbers.
 struct Option {
@@ -109,20 +121,28 @@ void MtlReader::read_line(std::string_view keyword, std::string_view rest, const
 // Whether the keyword is one of those with numbers.
 bool MtlReader::read_numbers(ImportedMaterial& material, std::string_view keyword, std::string_view rest,
                              const std::string& place) {
-  const bool colour = keyword == "kd" || keyword == "ks" || keyword == "ke";
-  if (!colour && keyword != "ns" && keyword != "pr" && keyword != "pm" && keyword != "d" && keyword != "tr") return false;
+  const auto key = std::find_if(std::begin(kNumberKeys), std::end(kNumberKeys),
+                                [&](const NumberKey& k) { return k.keyword == keyword; });
+  if (key == std::end(kNumberKeys)) return false;
   const std::vector<std::string_view> words = split_words(rest);
   if (!words.empty() && (lower(words[0]) == "spectral" || lower(words[0]) == "xyz"))
     return scene_.note(place + ": " + quoted(keyword) + " by " + quoted(words[0]) + " is left out"), true;
+  const float largest = key->largest == kAnySize ? kAnySize : key->largest + kRounding;
+  bool good = true;
   std::vector<float> values;
   for (const std::string_view word : words) {
-    if (word == "-halo") continue;
+    if (word[0] == '#') break;
+    if (keyword == "d" && word == "-halo") continue;
     const std::optional<double> value = read_real(word);
-    if (!value || !std::isfinite(*value)) break;
-    values.push_back(float(*value));
+    good = good && value && *value >= 0 && *value <= double(largest);
+    values.push_back(good ? float(*value) : 0);
   }
-  if (values.empty())
-    return scene_.note(place + ": " + quoted(keyword) + " needs a number, not " + quoted(rest) + "; it is left out"), true;
+  // One number of a colour means all three.
+  if (!good || values.empty() || (values.size() > 1 && values.size() < key->most))
+    return scene_.note(place + ": " + quoted(keyword) + " needs " + (key->most == 3 ? "one or three numbers" : "a number") +
+                       (key->largest == 1 ? " from 0 to 1" : " of 0 or more") + ", not " + quoted(rest) + "; it is left out"), true;
+  if (values.size() > key->most)
+    scene_.note(place + ": numbers of " + quoted(keyword) + " beyond the first" + (key->most == 3 ? " three" : "") + " are left out");
   const Vec3f three(values[0], values.size() > 2 ? values[1] : values[0], values.size() > 2 ? values[2] : values[0]);
   if (keyword == "kd") material.colour = three;
   if (keyword == "ks") material.specular = three;
@@ -177,12 +197,16 @@ std::string MtlReader::take_options(std::string_view rest, TexturePlace& where, 
       if (value) numbers.push_back(*value);
       after = behind;
     }
+    rest = trimmed(after);
+    if (!std::all_of(numbers.begin(), numbers.end(), [](double n) { return std::isfinite(n); })) {
+      scene_.note(place + ": the option " + word + " of an image needs finite numbers; it is left out");
+      continue;
+    }
     if (numbers.size() < 2) numbers.resize(2, word == "-s" ? 1.0 : 0.0);
     if (word == "-o") where.offset = {numbers[0], -numbers[1]};  // upwards in MTL
     if (word == "-s") where.scale = {numbers[0], numbers[1]};
     if ((word == "-clamp" || word == "-t" || word == "-imfchan") && !(word == "-clamp" && after.find("off") == 0))
       scene_.note(place + ": the option " + word + " of an image is left out");
-    rest = trimmed(after);
   }
   // v' = o + s v, with v upwards, is 1 - v' = (1 - o - s) + s (1 - v).
   where.offset[1] += 1 - where.scale[1];

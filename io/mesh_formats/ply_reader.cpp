@@ -59,9 +59,15 @@ class PlyFile {
 
   double number(const std::string& type) { return binary ? read_binary(type) : read_word(); }
 
+  // Corners and lengths of lists may be written as real numbers.
+  double check_whole(double value, const char* expected) const {
+    if (value != std::floor(value)) refuse("not a whole number", expected, (std::ostringstream() << value).str());
+    return value;
+  }
+
   // The length of a list.
   std::uint64_t list_size(const std::string& type) {
-    const double size = number(type);
+    const double size = check_whole(number(type), "the length of a list");
     if (!(size >= 0 && size <= double(bytes_.size())))
       refuse("no length of a list", "0 or more", (std::ostringstream() << size).str());
     return std::uint64_t(size);
@@ -251,6 +257,7 @@ std::uint32_t check_corner(PlyFile& file, const PlyMesh& mesh, double value) {
 }
 
 void add_polygon(PlyMesh& mesh, const std::vector<std::uint32_t>& corners) {
+  if (corners.size() < 3) return void(++mesh.short_faces);
   if (corners.size() == 3) return mesh.triangles.push_back({corners[0], corners[1], corners[2]});
   std::vector<Vec3> outline;
   for (const std::uint32_t i : corners) outline.push_back(mesh.positions[i]);
@@ -280,7 +287,7 @@ void read_face(PlyFile& file, const Element& element, PlyMesh& mesh) {
     std::vector<double> values;
     for (std::uint64_t i = 0; i < count; ++i) {
       const double value = file.number(property.type);
-      if (corners_here) values.push_back(value);
+      if (corners_here) values.push_back(file.check_whole(value, "the number of a vertex, from 0"));
     }
     if (!corners_here) continue;
     if (element.name == "tristrips") {
@@ -347,6 +354,8 @@ PlyMesh load_ply(const std::string& path) {
     read_items(file, element, mesh);
   }
   if (mesh.positions.empty()) file.refuse("holds no vertex", "points or a mesh", "none");
+  if (mesh.short_faces > 0)
+    mesh.notes.push_back("faces of less than three corners are left out: " + std::to_string(mesh.short_faces));
   if (file.has_more_words) mesh.notes.push_back("numbers beyond the properties of its header are left out");
   return mesh;
 }

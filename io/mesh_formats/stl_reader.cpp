@@ -38,6 +38,7 @@ void add_facet(ImportedMesh& mesh, const Vec3f& normal, const std::array<Vec3, 3
 
 void read_binary(const std::string& path, std::string_view bytes, ImportedScene& scene) {
   const auto count = std::uint64_t(number_from<std::uint32_t>(bytes.data() + 80));
+  if (bytes.size() < kStlHeader + kStlFacet * count && is_utf16(bytes)) refuse_mesh(path, "is UTF-16 text: save it as UTF-8");
   if (bytes.size() < kStlHeader + kStlFacet * count)
     refuse_mesh(path, "the STL file ends early: " + std::to_string(count) + " facets take " +
                           std::to_string(kStlHeader + kStlFacet * count) + " bytes, and it has " + std::to_string(bytes.size()));
@@ -92,13 +93,17 @@ class TextReader {
       for (int i = 0; i < 3; ++i) normal_[i] = float(number(rest));
     } else if (word == "vertex") {
       for (int i = 0; i < 3; ++i) corners_[std::size_t(corner_)][i] = number(rest);
-      if (++corner_ == 3) add_facet(mesh_for(scene_, 0, object_), normal_, corners_), corner_ = 0;
+      if (in_facet_ && full_) refuse("a facet of more than three corners: export the mesh as triangles");
+      if (++corner_ == 3) add_facet(mesh_for(scene_, 0, object_), normal_, corners_), corner_ = 0, full_ = true;
     } else if (word == "endfacet" || word == "endloop") {
       if (corner_ > 0) refuse("a facet of less than three corners");
       if (word == "endfacet") in_facet_ = false;
     } else if (word == "facet") {
-      normal_ = {}, in_facet_ = true;
-    } else if (word != "outer" && word != "loop") {
+      if (corner_ > 0) refuse("a facet of less than three corners");
+      normal_ = {}, in_facet_ = true, full_ = false;
+    } else if (word == "loop") {
+      full_ = false;
+    } else if (word != "outer") {
       refuse("unknown word \"" + printable(word) + "\"; STL has facet, normal, outer loop, vertex, endloop, endfacet");
     }
   }
@@ -116,7 +121,7 @@ class TextReader {
   LineScanner lines_;
   ImportedScene& scene_;
   int object_ = 0, corner_ = 0;
-  bool open_ = false, in_facet_ = false;
+  bool open_ = false, in_facet_ = false, full_ = false;  // full: the loop has its three corners
   Vec3f normal_;
   std::array<Vec3, 3> corners_;
 };
@@ -125,7 +130,7 @@ bool is_binary(std::string_view bytes) {
   if (bytes.size() < kStlHeader) return false;
   const std::uint64_t size = kStlHeader + kStlFacet * std::uint64_t(number_from<std::uint32_t>(bytes.data() + 80));
   if (bytes.size() == size) return true;
-  std::string_view text = bytes.substr(0, 512);
+  std::string_view text = skip_byte_order_mark(bytes.substr(0, 512));
   const std::string_view word = take_word(text);
   if (word != "solid" && word != "SOLID" && word != "Solid") return true;
   return bytes.substr(0, 512).find('\0') != std::string_view::npos;

@@ -19,7 +19,8 @@ constexpr double kMostStretch = 0.01;      // by which pixels may differ from sq
 constexpr double kLeastMetres = 0.1;       // spacing below which an ESRI grid's is taken for degrees; unit: m
 // Comments of the kept text.
 constexpr const char *kThinnedBy = "averaged over blocks of ", *kInDegrees = "cells in degrees",
-                     *kOfColours = "brightness of colours";
+                     *kOfColours = "brightness of colours", *kCutColumns = "columns left out at the edges: ",
+                     *kCutRows = "rows left out at the edges: ";
 
 [[noreturn]] void decline_grid(const std::string& what) { throw std::runtime_error(what); }
 
@@ -42,16 +43,22 @@ DataGrid grid_of_picture(DataPicture picture) {
   return grid;
 }
 
+// The whole number of a comment of data_grid_text(); otherwise: none is there.
+int commented(std::string_view text, const char* words, int least, int otherwise) {
+  const std::size_t at = text.find(words);
+  if (at == std::string_view::npos) return otherwise;
+  const std::string_view rest = text.substr(at + std::string_view(words).size());
+  const auto value = parse_number(rest.substr(0, rest.find_first_of(" \r\n")));
+  return value && *value >= least && *value <= 1e5 ? int(*value) : otherwise;
+}
+
 // What the comments of data_grid_text() say.
 void read_grid_comments(std::string_view text, DataGrid& grid) {
   text = text.substr(0, 300);
   grid.degrees = grid.degrees || text.find(kInDegrees) != std::string_view::npos;
   grid.colour = grid.colour || text.find(kOfColours) != std::string_view::npos;
-  const std::size_t at = text.find(kThinnedBy);
-  if (at == std::string_view::npos) return;
-  const std::string_view rest = text.substr(at + std::string_view(kThinnedBy).size());
-  const auto block = parse_number(rest.substr(0, rest.find(' ')));
-  if (block && *block >= 1 && *block <= 1e5) grid.block = int(*block);
+  grid.block = commented(text, kThinnedBy, 1, 1);
+  grid.cut_columns = commented(text, kCutColumns, 0, 0), grid.cut_rows = commented(text, kCutRows, 0, 0);
 }
 
 // The number after a key of an ESRI grid's head.
@@ -78,7 +85,7 @@ class EsriHead {
   std::vector<std::pair<std::string, double>> entries_;
 };
 
-DataGrid parse_esri_grid(std::string_view text) {
+DataGrid parse_esri_grid(std::string_view text, bool kept) {
   EsriHead head;
   DataGrid grid;
   std::optional<double> none;
@@ -88,7 +95,8 @@ DataGrid parse_esri_grid(std::string_view text) {
     const bool key = in_head && row.words.size() == 2 && !first.empty() && first[0] >= 'a' && first[0] <= 'z' && first != "nan";
     if (key) {
       const auto value = parse_number(row.words[1]);
-      if (!value) decline_grid("is an ESRI ASCII grid with no number after " + first);
+      if (!value || (!std::isfinite(*value) && first != "nodata_value"))
+        decline_grid("is an ESRI ASCII grid with no number after " + first + ", in line " + std::to_string(row.line));
       head.add(first, *value);
       continue;
     }
@@ -102,12 +110,14 @@ DataGrid parse_esri_grid(std::string_view text) {
     if (grid.values.size() > kMostDataPixels) decline_grid("has more than 64 million values");
   }
   const double columns = head.require("ncols"), rows = head.require("nrows");
-  if (!(columns >= 1 && rows >= 1) || columns * rows != double(grid.values.size()))
+  const bool whole = columns == std::floor(columns) && rows == std::floor(rows);
+  if (!(columns >= 1 && rows >= 1 && whole) || columns * rows != double(grid.values.size()))
     decline_grid("has " + std::to_string(grid.values.size()) + " values instead of " + format_number(columns) + " times " +
             format_number(rows));
   grid.columns = int(columns), grid.rows = int(rows);
   grid.spacing = head.require("cellsize");
-  if (!(grid.spacing >= 0)) decline_grid("has a cellsize below 0");
+  if (!(grid.spacing > 0) && !(kept && grid.spacing == 0))
+    decline_grid("has the cellsize " + format_number(grid.spacing) + ": expected the distance of its points, above 0");
   grid.degrees = grid.spacing > 0 && grid.spacing < kLeastMetres;
   grid.east = head.either("xllcorner", "xllcenter", grid.spacing / 2);
   grid.north = head.either("yllcorner", "yllcenter", grid.spacing / 2);
@@ -115,8 +125,8 @@ DataGrid parse_esri_grid(std::string_view text) {
 }
 
 // Of a plain PGM the levels as they are; its size is bounded by the text's own.
-DataGrid read_unthinned(std::string_view bytes) {
-  if (is_esri_grid(bytes)) return parse_esri_grid(bytes);
+DataGrid read_unthinned(std::string_view bytes, bool kept) {
+  if (is_esri_grid(bytes)) return parse_esri_grid(bytes, kept);
   try {
     return grid_of_picture(decode_data_picture(bytes));
   } catch (const RunError& error) {
@@ -130,14 +140,26 @@ void round_levels(DataGrid& grid) {
   for (double& value : grid.values) value = std::floor(value + 0.5);
 }
 
+// The blocks of one way: how many, and the point at which the first begins; below 0: it hangs over.
+struct Blocks {
+  int count = 0, begin = 0, left_over = 0;
+};
+
+Blocks divide(int points, int block) {
+  int count = points / block;
+  if (count < 2) count = (points + block - 1) / block;
+  const int left_over = points - count * block;
+  return {count, left_over / 2, std::max(0, left_over)};
+}
+
 std::string number_text(double value) { return std::isnan(value) ? "nan" : format_number(value); }
 
 }  // namespace
 
 bool is_data_grid(std::string_view bytes) { return !picture_kind(bytes).empty() || is_esri_grid(bytes); }
 
-DataGrid read_data_grid(std::string_view bytes) {
-  DataGrid grid = read_unthinned(bytes);
+DataGrid read_data_grid(std::string_view bytes, bool kept) {
+  DataGrid grid = read_unthinned(bytes, kept);
   if (std::uint64_t(grid.columns) * std::uint64_t(grid.rows) > kMostDataPixels)
     decline_grid("has more than 64 million pixels");
   if (is_esri_grid(bytes) || bytes.substr(0, 2) == "P2") read_grid_comments(bytes, grid);
@@ -149,21 +171,25 @@ DataGrid thinned(DataGrid grid, int side) {
   const int block = (std::max(grid.columns, grid.rows) + side - 1) / side;
   if (block <= 1) return grid;
   DataGrid out = grid;
-  out.columns = (grid.columns + block - 1) / block, out.rows = (grid.rows + block - 1) / block;
+  const Blocks across = divide(grid.columns, block), down = divide(grid.rows, block);
+  out.columns = across.count, out.rows = down.count;
   out.values.clear();
-  out.block = grid.block * block, out.spacing = grid.spacing * block;
+  // A comment may state any block.
+  const auto of_file = [&grid](int points) { return int(std::min(1e9, double(points) * grid.block)); };
+  out.block = of_file(block), out.spacing = grid.spacing * block;
+  out.cut_columns += of_file(across.left_over), out.cut_rows += of_file(down.left_over);
+  out.east += grid.spacing * across.begin;
+  out.north += grid.spacing * (grid.rows - down.begin - down.count * block);
   for (int r = 0; r < out.rows; ++r) {
     for (int c = 0; c < out.columns; ++c) {
       double sum = 0;
       int count = 0;
-      for (int y = r * block; y < std::min(grid.rows, (r + 1) * block); ++y)
-        for (int x = c * block; x < std::min(grid.columns, (c + 1) * block); ++x) {
-          const double value = grid.values[std::size_t(y) * std::size_t(grid.columns) + std::size_t(x)];
-          if (std::isnan(value)) continue;
-          sum += value, ++count;
-        }
-      const double mean = count == 0 ? kNoValue : sum / count;
-      out.values.push_back(grid.metric() || count == 0 ? mean : std::floor((2 * sum + count) / (2 * count)));
+      const int top = down.begin + r * block, left = across.begin + c * block;
+      for (int y = std::max(0, top); y < std::min(grid.rows, top + block); ++y)
+        for (int x = std::max(0, left); x < std::min(grid.columns, left + block); ++x)
+          sum += grid.values[std::size_t(y) * std::size_t(grid.columns) + std::size_t(x)], ++count;
+      // No value in a block makes no sum.
+      out.values.push_back(grid.metric() ? sum / count : std::floor((2 * sum + count) / (2 * count)));
     }
   }
   return out;
@@ -172,6 +198,8 @@ DataGrid thinned(DataGrid grid, int side) {
 std::string data_grid_text(const DataGrid& grid) {
   std::string text, comments;
   if (grid.block > 1) comments += std::string("# ") + kThinnedBy + std::to_string(grid.block) + " points a side\n";
+  if (grid.cut_columns > 0) comments += std::string("# ") + kCutColumns + std::to_string(grid.cut_columns) + "\n";
+  if (grid.cut_rows > 0) comments += std::string("# ") + kCutRows + std::to_string(grid.cut_rows) + "\n";
   if (grid.degrees) comments += std::string("# ") + kInDegrees + "\n";
   if (grid.colour) comments += std::string("# ") + kOfColours + "\n";
   if (grid.metric()) {

@@ -18,6 +18,7 @@ struct DataGrid {
   bool degrees = false;        // spacing, east and north are degrees
   bool colour = false;         // of a colour picture, whose brightness was taken
   int block = 1;               // points of the file, a side, over which each value is averaged
+  int cut_columns = 0, cut_rows = 0;  // of the file, at its edges, that fill no whole block and are left out
 
   bool metric() const { return white == 0; }
 };
@@ -27,10 +28,13 @@ inline constexpr int kUsualSide = 256, kLargestSide = 900;  // of what is kept; 
 // Whether read_data_grid() is for it: a picture of any kind, a plain PGM or an ESRI ASCII grid.
 bool is_data_grid(std::string_view bytes);
 
-// Throws std::runtime_error that says why it cannot be, after the file's name.
-DataGrid read_data_grid(std::string_view bytes);
+// Throws std::runtime_error that says why it cannot be, after the file's name. kept: a text of data_grid_text(), whose
+// cellsize is 0 where the file had no spacing.
+DataGrid read_data_grid(std::string_view bytes, bool kept = false);
 
-// Averaged over square blocks, so that no side has more points than `side`. Grey levels stay integers.
+// Averaged over square blocks, so that no side has more points than `side`. Grey levels stay integers. Whole blocks in the
+// middle of the grid count, and what is left over at its edges does not; a way with less than two whole blocks keeps
+// incomplete ones, which hang over on both sides. A block with a point without a value has none.
 DataGrid thinned(DataGrid grid, int side);
 
 // A plain PGM ("P2") of grey levels, an ESRI ASCII grid of heights. read_data_grid() reads it back.

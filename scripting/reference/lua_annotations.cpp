@@ -73,6 +73,7 @@ std::string published_names(const Schema& schema) {
 std::string result_of(const std::string& function) {
   if (function.rfind("rubble.collapse.", 0) == 0) return "rubble.mission.pile";
   if (function.rfind("rubble.trajectory.", 0) == 0) return "rubble.mission.trajectory";
+  if (function == "rubble.slab" || function == "rubble.wall") return "rubble.mission.pile.placed";
   if (function == "rubble.find_void")
     return "{approach: table, entrance: table, deepest: table, widest: table}";
   return "table";

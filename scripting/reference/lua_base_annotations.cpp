@@ -60,9 +60,11 @@ function rubble.mission(mission) end
 ---@param name string
 ---@return rubble.Random
 function rubble.random(name) end
----@param x? number
----@param y? number
----@param z? number
+---A vector of three numbers; without any: zero.
+---@overload fun(): rubble.Vec
+---@param x number
+---@param y number
+---@param z number
 ---@return rubble.Vec
 function rubble.vec(x, y, z) end
 ---The vector turned by roll, pitch and yaw. unit: degree
@@ -79,14 +81,15 @@ function rubble.include(file) end
 ---@return {rows: (number|string)[][], names: string[]?, lines: integer[]}
 function rubble.read_table(file) end
 ---A picture or an elevation model of the script's folder, row by row from the top: grey levels from 0 to 1, or
----where `metric`, heights in m. `block`: points of the file, a side, over which each value is averaged.
+---where `metric`, heights in m. `block`: points of the file, a side, over which each value is averaged; `cut_columns` and
+---`cut_rows`: those at its edges that fill no whole block and are left out.
 ---@param file string
 ---@param side? integer points a side, at most; 256
----@return {columns: integer, rows: integer, values: number[], metric: boolean, levels: number?, block: integer, spacing: number?, east: number?, north: number?, degrees: boolean, colour: boolean}
+---@return {columns: integer, rows: integer, values: number[], metric: boolean, levels: number?, block: integer, cut_columns: integer, cut_rows: integer, spacing: number?, east: number?, north: number?, degrees: boolean, colour: boolean}
 function rubble.read_image(file, side) end
 ---A recorded trajectory of the script's folder; bodies have X forward and Z up.
 ---@param file string
----@param options {frame: string?, columns: string?}
+---@param options? {frame: string?, columns: string?}
 ---@return {format: string, stamped: boolean, poses: rubble.mission.trajectory.waypoints[], notes: string[]}
 function rubble.read_trajectory(file, options) end
 ---An accelerogram of the script's folder. unit: m/s2, s
@@ -129,14 +132,6 @@ function rubble.assemble(options, placed) end
 ---@param ... rubble.mission.pile
 ---@return rubble.mission.pile
 function rubble.join(...) end
----An entry of `pile.placed`: a box by its lower edge.
----@param box table
----@return rubble.mission.pile.placed
-function rubble.slab(box) end
----An entry of `pile.placed`: a box that stands on the ground.
----@param box table
----@return rubble.mission.pile.placed
-function rubble.wall(box) end
 ---A pile that is a building and what becomes of it.
 ---@param building rubble.mission.pile.building
 ---@return rubble.mission.pile

@@ -124,8 +124,8 @@ int read_table_file(lua_State* lua) {
   return 1;
 }
 
-// read_image(file, side) -> { columns =, rows =, values = {...}, metric =, levels =, block =, spacing =, east =,
-// north =, degrees =, colour = }: grey levels from 0 to 1, or heights in m.
+// read_image(file, side) -> { columns =, rows =, values = {...}, metric =, levels =, block =, cut_columns =, cut_rows =,
+// spacing =, east =, north =, degrees =, colour = }: grey levels from 0 to 1, or heights in m.
 int read_image_file(lua_State* lua) {
   const std::string name = luaL_checkstring(lua, 1);
   const lua_Integer side = luaL_optinteger(lua, 2, kUsualSide);
@@ -133,15 +133,17 @@ int read_image_file(lua_State* lua) {
   std::string error;
   const int chunk = host_of(lua).open_grid(name, int(side), error);
   DataGrid grid;
-  if (chunk >= 0) grid = read_data_grid(host_of(lua).chunk(chunk).text);
+  if (chunk >= 0) grid = read_data_grid(host_of(lua).chunk(chunk).text, true);
   if (chunk < 0) return luaL_error(lua, "rubble.read_image: %s", printable(error).c_str());
   count_work(lua, grid.values.size() * kInstructionsPerWord);
-  lua_createtable(lua, 0, 11);
+  lua_createtable(lua, 0, 13);
   const auto set = [lua](const char* key, double value) { lua_pushnumber(lua, value), lua_setfield(lua, -2, key); };
   const auto set_flag = [lua](const char* key, bool value) { lua_pushboolean(lua, value), lua_setfield(lua, -2, key); };
   lua_pushinteger(lua, grid.columns), lua_setfield(lua, -2, "columns");
   lua_pushinteger(lua, grid.rows), lua_setfield(lua, -2, "rows");
   lua_pushinteger(lua, grid.block), lua_setfield(lua, -2, "block");
+  lua_pushinteger(lua, grid.cut_columns), lua_setfield(lua, -2, "cut_columns");
+  lua_pushinteger(lua, grid.cut_rows), lua_setfield(lua, -2, "cut_rows");
   set_flag("metric", grid.metric()), set_flag("degrees", grid.degrees), set_flag("colour", grid.colour);
   if (!grid.metric()) set("levels", grid.white + 1);
   if (grid.spacing > 0) set("spacing", grid.spacing), set("east", grid.east), set("north", grid.north);
@@ -152,6 +154,22 @@ int read_image_file(lua_State* lua) {
   }
   lua_setfield(lua, -2, "values");
   return 1;
+}
+
+// The second argument, where there is one, is a table with some of these keys.
+void check_options(lua_State* lua, const char* function, const std::vector<std::string>& keys) {
+  if (lua_isnoneornil(lua, 2)) return;
+  luaL_checktype(lua, 2, LUA_TTABLE);
+  std::string known, unknown;
+  for (const std::string& key : keys) known += (known.empty() ? "" : ", ") + key;
+  for (lua_pushnil(lua); lua_next(lua, 2) != 0; lua_pop(lua, 1)) {
+    const bool is_text = lua_type(lua, -2) == LUA_TSTRING;
+    const std::string key = is_text ? lua_tostring(lua, -2) : std::string("a ") + luaL_typename(lua, -2);
+    if (is_text && std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+    if (unknown.empty() || key < unknown) unknown = key;  // their order changes from run to run
+  }
+  if (!unknown.empty())
+    luaL_error(lua, "%s: unknown key `%s`: expected %s", function, printable(unknown).c_str(), known.c_str());
 }
 
 // read_calibration(file) -> { format =, notes =, and the keys of sensors by their kinds }
@@ -175,8 +193,8 @@ int read_calibration_file(lua_State* lua) {
 int read_accelerogram_file(lua_State* lua) {
   const std::string name = luaL_checkstring(lua, 1);
   AccelerogramOptions options;
+  check_options(lua, "rubble.read_accelerogram", {"step", "unit"});
   if (!lua_isnoneornil(lua, 2)) {
-    luaL_checktype(lua, 2, LUA_TTABLE);
     if (lua_getfield(lua, 2, "step") != LUA_TNIL) options.step = luaL_checknumber(lua, -1);
     lua_getfield(lua, 2, "unit");
     options.unit = luaL_optstring(lua, -1, "");
@@ -212,11 +230,12 @@ void push_vector(lua_State* lua, const Vec3& v) {
   }
 }
 
-// Of the options of read_trajectory.
+// Of the options of read_trajectory; empty: not given.
 std::string option_at(lua_State* lua, const char* key) {
-  lua_getfield(lua, 2, key);
-  const char* const text = lua_tostring(lua, -1);
-  const std::string value = text ? text : "";
+  if (lua_isnoneornil(lua, 2)) return "";
+  if (lua_getfield(lua, 2, key) != LUA_TNIL && lua_type(lua, -1) != LUA_TSTRING)
+    luaL_error(lua, "rubble.read_trajectory: %s: expected a string, found a %s", key, luaL_typename(lua, -1));
+  const std::string value = luaL_optstring(lua, -1, "");
   lua_pop(lua, 1);
   return value;
 }
@@ -238,8 +257,12 @@ void push_pose(lua_State* lua, const RecordedTrajectory& track, std::size_t i, b
 // pose, in s; of poses with one stamp the first.
 int read_trajectory_file(lua_State* lua) {
   const std::string name = luaL_checkstring(lua, 1);
-  luaL_checktype(lua, 2, LUA_TTABLE);
+  check_options(lua, "rubble.read_trajectory", {"frame", "columns"});
   const std::string frame = option_at(lua, "frame"), columns = option_at(lua, "columns");
+  const bool frame_is_known = frame.empty() || frame == "optical" || frame == "body" || frame == "as the format says";
+  if (!frame_is_known)
+    return luaL_error(lua, "rubble.read_trajectory: frame: expected \"optical\", \"body\" or \"as the format says\", found \"%s\"",
+                      printable(frame).c_str());
   RecordedTrajectory track;
   Diagnostic mistake;
   try {

@@ -95,7 +95,7 @@ int ScriptIncludes::open_grid(const std::string& name, int side, std::string& er
   if (chunks_.size() > kMostIncludes) return error = "more than 64 files", -1;
   try {
     const bool small_text = bytes->size() <= kLargestInclude && find_invalid_utf8(*bytes) == std::string_view::npos;
-    const DataGrid whole = read_data_grid(*bytes);
+    const DataGrid whole = read_data_grid(*bytes, served_.has_value());
     DataGrid grid = thinned(whole, side);
     if (!small_text || grid.block != whole.block) *bytes = data_grid_text(grid);
   } catch (const std::runtime_error& failure) {

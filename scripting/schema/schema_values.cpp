@@ -403,6 +403,15 @@ std::string expected_as(const Key& key, const T& slot) {
   return "a list of strings";
 }
 
+// The first item of a list of numbers that cannot be stored, "1200 as item 5 of 12"; empty: it is the list itself.
+std::string found_item(const Range& range, const Value& value) {
+  double number = 0;
+  for (std::size_t i = 0; value.fields.empty() && value.strange_keys.empty() && i < value.items.size(); ++i)
+    if (store_number(range, value.items[i], number) != Outcome::stored)
+      return describe(value.items[i]) + " as item " + std::to_string(i + 1) + " of " + std::to_string(value.items.size());
+  return "";
+}
+
 std::string found_words(const Value& value) {
   // Show a short list of numbers in full: the mistake is in one of them.
   if (value.kind != Value::Kind::table || value.items.empty() || value.items.size() > 3)
@@ -437,6 +446,8 @@ std::optional<Diagnostic> write_slot(const Key& key, const Slot& slot, const Val
   d.message = outcome == Outcome::wrong_type ? "wrong type" : "out of range";
   d.expected = std::visit([&](const auto& to) { return expected_as(key, to); }, slot);
   d.found = found_words(value);
+  if (std::holds_alternative<std::vector<double>*>(slot) && value.items.size() > 3)
+    if (const std::string item = found_item(key.range, value); !item.empty()) d.found = item;
   const bool is_word = std::holds_alternative<WordOrFile>(slot) && value.kind == Value::Kind::text;
   if (is_word) d.message = "unknown choice";
   if (const auto* choice = std::get_if<Choice>(&slot); choice && value.kind == Value::Kind::text) {

@@ -63,9 +63,29 @@ TEST_F(MeshFormats, AFaultInAMaterialFileNeverCostsTheMesh) {
   const TriangleMesh mesh = load("a.obj", std::string("mtllib m.mtl\n") + kCube + "usemtl a\n" + kFaces + "usemtl b\n");
   EXPECT_EQ(mesh.triangles.size(), 12u);
   EXPECT_TRUE(has(notes(), "m.mtl:8: unknown keyword \"whatever\"")) << notes();
-  EXPECT_TRUE(has(notes(), "m.mtl:7: \"kd\" needs a number, not \"zwei\"")) << notes();
+  EXPECT_TRUE(has(notes(), "m.mtl:7: \"kd\" needs one or three numbers from 0 to 1, not \"zwei\"; it is left out")) << notes();
   EXPECT_TRUE(has(notes(), "m.mtl:9: \"map_kd\" names no image")) << notes();
   EXPECT_FALSE(has(notes(), "aniso")) << notes();
+}
+
+TEST_F(MeshFormats, DamagedNumbersOfAMaterialAreLeftOutWithAWord) {
+  const auto colour_with = [&](const std::string& line) {
+    write_text_file(folder_ / "m.mtl", "newmtl a\nKd 0.1 0.2 0.3\n" + line + "\nnewmtl b\nKd 1 0 0\n");
+    const TriangleMesh mesh = load("a.obj", std::string("mtllib m.mtl\n") + kCube + "usemtl a\nf 1 4 3 2\nusemtl b\nf 5 6 7 8\nf 1 2 6 5\n");
+    return mesh.paints.at(0)->colour;
+  };
+  for (const char* line : {"Kd 1 x 0", "Kd 1 0", "Kd -1 255 0", "Kd 1 nan 0", "Kd", "Ks 0 0 2", "Ke 1 1", "Ke -1", "Ns -5", "Ns x",
+                           "Pr 1.5", "Pm rough", "d 1e999", "Tr -0.5", "Kd -halo 1"}) {
+    EXPECT_EQ(colour_with(line), Vec3f(0.1f, 0.2f, 0.3f)) << line;
+    EXPECT_TRUE(has(notes(), "m.mtl:3: ") && has(notes(), "it is left out")) << line << ": " << notes();
+  }
+  EXPECT_EQ(colour_with("Kd 0.5"), Vec3f(0.5f, 0.5f, 0.5f)) << "grey";
+  for (const char* line : {"Kd 0.5", "Kd 1.0000001 0 0 # red", "Ks 0.2", "Ke 0 0 0", "Ns 1000", "Pr 1", "Pm 0", "d -halo 1", "Tr 0"}) {
+    colour_with(line);
+    EXPECT_EQ(notes(), "") << line;
+  }
+  EXPECT_EQ(colour_with("Kd 1 0 0 1"), Vec3f(1, 0, 0));
+  EXPECT_TRUE(has(notes(), "m.mtl:3: numbers of \"kd\" beyond the first three are left out")) << notes();
 }
 
 TEST_F(MeshFormats, ObjReadsEveryMaterialFileAndNamesALostOne) {
@@ -325,6 +345,20 @@ TEST_F(MeshFormats, PlyOfTextHasALineForEachItem) {
   EXPECT_TRUE(is_closed(load("b.ply", header + "0 0 0 1 0 0 0 1 0\n0 0 1 3 0 2 1 3 0 1 3\n3 1 2 3 3 0 3 2\n")));
   EXPECT_EQ(notes(), "");
   EXPECT_TRUE(is_closed(load("c.ply", header + "0 0\n0\n1 0 0\n0 1 0\n0 0 1\n3 0\n2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")));
+}
+
+TEST_F(MeshFormats, PlyNamesFacesThatItCannotTake) {
+  const auto with = [](const std::string& type, const std::string& faces) {
+    const std::string count = std::to_string(std::count(faces.begin(), faces.end(), '\n'));
+    return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face " + count +
+           "\nproperty list float " + type + " vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n" + faces;
+  };
+  const std::string shell = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+  EXPECT_TRUE(is_closed(load("a.ply", with("int", shell + "2 0 3\n0\n1 2\n"))));
+  EXPECT_EQ(notes(), "faces of less than three corners are left out: 3\n");
+  EXPECT_TRUE(has(error_of("b.ply", with("int", shell + "3 0.7 2.9 3\n")), "b.ply:18: not a whole number")) << error_of("b.ply", with("int", shell + "3 0.7 2.9 3\n"));
+  EXPECT_TRUE(has(error_of("c.ply", with("float", "3 0 nan 2\n")), "c.ply:14: not a whole number"));
+  EXPECT_TRUE(has(error_of("d.ply", with("int", "2.5 0 1 2\n")), "d.ply:14: not a whole number"));
 }
 
 // Colours of base materials are drawn; of what is not, each is named.

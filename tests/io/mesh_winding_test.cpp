@@ -116,6 +116,13 @@ TEST(StlReader, SaysWhereAFileEndsTooEarlyOrTooLate) {
   EXPECT_EQ(import(whole).notes, std::vector<std::string>{"`endsolid` is missing: the file may be cut off"});
   EXPECT_NE(import(whole + "facet normal 0 0 1\nouter").error.find("the STL file ends early: within a facet"), std::string::npos);
   EXPECT_NE(import(whole + "facet normal 0 0 1\nouter loop\nvertex 0 0 0\n").error.find("less than three corners"), std::string::npos);
+  EXPECT_NE(import("solid a\nfacet normal 0 0 1\nvertex 0 0 0\n" + whole.substr(8)).error.find("a.stl:4: a facet of less than three corners"), std::string::npos);
+  std::string four = whole;
+  four.insert(four.find("endloop"), "vertex 2 2 0\n");
+  EXPECT_NE(import(four).error.find("a.stl:7: a facet of more than three corners"), std::string::npos) << import(four).error;
+  EXPECT_TRUE(import("\xef\xbb\xbf" + whole + "endsolid a\n").notes.empty());
+  EXPECT_EQ(import("\xef\xbb\xbf" + whole + "endsolid a\n").error, "") << "a byte order mark";
+  EXPECT_NE(import(std::string("\xff\xfes\0o\0", 6) + std::string(100, ' ')).error.find("UTF-16"), std::string::npos);
   const std::string count("\1\0\0\0", 4), two = facet({0, 0, 0}, {1, 0, 0}, {0, 1, 0}) + facet({0, 0, 1}, {1, 0, 1}, {0, 1, 1});
   EXPECT_EQ(import(std::string(80, ' ') + count + two).notes,
             std::vector<std::string>{"50 bytes behind the 1 facets that the file states are left out: is the count right?"});

@@ -1,6 +1,7 @@
 // Pictures, elevation models, accelerograms and calibrations that a script reads.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -126,11 +127,86 @@ TEST(DataGrid, AnEsriGridIsReadWithItsGapsAndWrittenBack) {
   const DataGrid thin = thinned(grid, 2);
   EXPECT_EQ(thin.columns, 2);
   EXPECT_EQ(thin.spacing, 60);
-  EXPECT_EQ(thin.values[0], (1 + 2 + 4) / 3.0) << "the mean of what has a value";
+  EXPECT_TRUE(std::isnan(thin.values[0])) << "a point of the block has none";
+  EXPECT_EQ(thin.values[1], (3 + 6.5) / 2);
   const DataGrid again = read_data_grid(data_grid_text(thin));
-  EXPECT_EQ(again.values, thin.values);
+  EXPECT_TRUE(std::isnan(again.values[0]));
+  EXPECT_EQ(again.values[1], thin.values[1]);
   EXPECT_EQ(again.block, 2);
   EXPECT_THROW(read_data_grid("ncols 3\nnrows 2\ncellsize 1\n1 2\n"), std::runtime_error);
+}
+
+// Of a plane, every value is the plane's at the middle of its block, wherever the blocks lie.
+TEST(DataGrid, BlocksStayWhereTheyAreOnTheMap) {
+  const auto plane = [](int columns, int rows) {
+    std::string text = "ncols " + std::to_string(columns) + "\nnrows " + std::to_string(rows) + "\nxllcorner 500\nyllcorner 700\ncellsize 10\n";
+    for (int r = 0; r < rows; ++r)
+      for (int c = 0; c < columns; ++c)
+        text += std::to_string(500 + 10 * c + 5 + 2 * (700 + 10 * (rows - 1 - r) + 5)) + (c + 1 < columns ? " " : "\n");
+    return read_data_grid(text);
+  };
+  for (const auto& [columns, rows, cut_columns, cut_rows] : {std::array{12, 8, 0, 0}, std::array{13, 9, 1, 1},
+                                                             std::array{14, 11, 2, 3}, std::array{15, 10, 3, 2}}) {
+    SCOPED_TRACE(columns);
+    const DataGrid thin = thinned(plane(columns, rows), 4 - (columns == 12));
+    ASSERT_EQ(thin.spacing, 40);
+    EXPECT_EQ(thin.columns, 3);
+    EXPECT_EQ(thin.rows, 2);
+    EXPECT_EQ(thin.cut_columns, cut_columns);
+    EXPECT_EQ(thin.cut_rows, cut_rows);
+    for (int r = 0; r < thin.rows; ++r)
+      for (int c = 0; c < thin.columns; ++c)
+        EXPECT_EQ(thin.values[std::size_t(r * thin.columns + c)],
+                  thin.east + 40 * c + 20 + 2 * (thin.north + 40 * (thin.rows - 1 - r) + 20));
+    const DataGrid again = read_data_grid(data_grid_text(thin));
+    EXPECT_EQ(again.cut_columns, cut_columns);
+    EXPECT_EQ(again.cut_rows, cut_rows);
+    EXPECT_EQ(again.north, thin.north);
+  }
+  const DataGrid narrow = thinned(plane(12, 5), 3);
+  EXPECT_EQ(narrow.rows, 2) << "incomplete blocks, where whole ones were less than two";
+  EXPECT_EQ(narrow.north, 700 - 20) << "they hang over on both sides";
+}
+
+TEST(DataGrid, AnEsriGridNeedsAHeadThatMakesSense) {
+  const auto error = [](const std::string& head, bool kept = false) -> std::string {
+    try {
+      read_data_grid("ncols 3\nnrows 2\n" + head + "1 2 3\n4 5 6\n", kept);
+    } catch (const std::runtime_error& failure) {
+      return failure.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(error("cellsize 2\nNODATA_value nan\n"), "");
+  EXPECT_NE(error("cellsize 0\n").find("has the cellsize 0: expected the distance of its points, above 0"), std::string::npos);
+  EXPECT_NE(error("cellsize -1\n").find("has the cellsize -1"), std::string::npos);
+  EXPECT_NE(error("cellsize inf\n").find("no number after cellsize, in line 3"), std::string::npos);
+  EXPECT_NE(error("cellsize 1\nxllcorner nan\n").find("no number after xllcorner, in line 4"), std::string::npos);
+  EXPECT_EQ(error("cellsize 0\n", true), "") << "of a kept text, whose file had no spacing";
+  EXPECT_THROW(read_data_grid("ncols 2.5\nnrows 2\ncellsize 1\n1 2 3 4 5\n"), std::runtime_error);
+}
+
+TEST_F(DataFiles, HeightsWithoutASpacingAreReadAgain) {
+  write("bare.tif", TiffBytes(2, 2, 3, std::vector<float>{1, 2, 3, 4}).bytes());
+  const Mission mission = terrain("'bare.tif'");
+  MissionOptions options;
+  options.included.emplace();
+  (*options.included)["bare.tif"] = mission.included[0].text;
+  EXPECT_EQ(load_mission_text(mission.script.text, mission.script.path, options).scenario.pile.terrain.heights,
+            mission.scenario.pile.terrain.heights);
+  write("zero.asc", "ncols 2\nnrows 2\ncellsize 0\n1 2\n3 4\n");
+  EXPECT_NE(terrain_error("'zero.asc'").find("has the cellsize 0: expected"), std::string::npos);
+}
+
+TEST_F(DataFiles, WhatAveragingLeavesOutIsPrintedAndGapsNeedAHeight) {
+  std::string text = "ncols 9\nnrows 8\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -1\n";
+  for (int i = 0; i < 72; ++i) text += std::string(i == 20 ? "-1" : "4") + (i % 9 == 8 ? "\n" : " ");
+  write("d.asc", text);
+  EXPECT_NE(terrain_error("'d.asc', { samples = 4 }").find("1 of 6 averaged points of d.asc have no height"), std::string::npos);
+  const Mission mission = terrain("'d.asc', { samples = 4, missing = 2 }");
+  EXPECT_EQ(mission.scenario.pile.terrain.heights, (std::vector<double>{2, 2, 2, 0, 2, 2}));
+  EXPECT_TRUE(printed(mission, "to 3 by 2, without 0 columns and 2 rows at the edges"));
+  EXPECT_TRUE(printed(mission, "the centre at east 45, north 40"));
 }
 
 TEST(DataGrid, GreyLevelsStayIntegers) {

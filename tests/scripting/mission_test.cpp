@@ -114,6 +114,16 @@ return rubble.mission {
             "\"concrete\"");
 }
 
+TEST(MissionErrors, AnItemOfALongListIsNamed) {
+  const auto error = [](const std::string& items) {
+    return mission_error("return rubble.mission { pile = { terrain = { columns = 3, rows = 2, heights = {" + items + "} } } }");
+  };
+  EXPECT_NE(error("0, 0, 0, 0, 2000, 0").find("pile.terrain.heights: out of range: expected a list of numbers, each from -1000 to 1000, "
+                                              "found 2000 as item 5 of 6"), std::string::npos);
+  EXPECT_NE(error("0, 0, 'a', 0, 0, 0").find("wrong type: expected a list of numbers, each from -1000 to 1000, found the string \"a\" "
+                                             "as item 3 of 6"), std::string::npos);
+}
+
 TEST(MissionErrors, UnknownKeyFarFromAllNamesListsThem) {
   const std::string start =
       "m.lua:2: camera.zzzzz: unknown key `zzzzz`: expected one of width, height, fov_deg";

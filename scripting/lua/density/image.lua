@@ -5,7 +5,8 @@ return function(file)
   local image = rubble.read_image(file)
   if image.block > 1 then
     print(file .. ": averaged over blocks of " .. image.block .. " by " .. image.block .. " pixels to " ..
-          image.columns .. " by " .. image.rows)
+          image.columns .. " by " .. image.rows .. (image.cut_columns + image.cut_rows > 0 and ", without " ..
+          image.cut_columns .. " columns and " .. image.cut_rows .. " rows at the edges, which fill no block" or ""))
   end
   local weights = {}
   for row = image.rows, 1, -1 do

@@ -58,12 +58,14 @@ return function(file, given)
   if columns < 2 or rows < 2 then error(name .. ": the picture is narrower than two pixels", 2) end
   if image.block > 1 then
     print(file .. ": averaged over blocks of " .. image.block .. " by " .. image.block .. " points to " .. columns ..
-          " by " .. rows .. "; `samples` keeps more, up to 900 a side")
+          " by " .. rows .. (image.cut_columns + image.cut_rows > 0 and ", without " .. image.cut_columns ..
+          " columns and " .. image.cut_rows .. " rows at the edges, which fill no block" or "") ..
+          "; `samples` keeps more, up to 900 a side")
   end
   if image.colour then print(file .. ": a colour picture; its brightness is taken as height") end
   local low, high, missing = range_of(image.values)
   if missing > 0 and not o.missing then
-    error(name .. ": " .. missing .. " of " .. columns * rows .. " points of " .. file ..
+    error(name .. ": " .. missing .. " of " .. columns * rows .. (image.block > 1 and " averaged" or "") .. " points of " .. file ..
           " have no height: give `missing`, a height for them, or fill them and save a PNG or TIFF", 2)
   end
   if missing > 0 then low, high = math.min(low, o.missing), math.max(high, o.missing) end

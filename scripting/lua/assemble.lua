@@ -14,8 +14,19 @@ local small_pieces = {
 }
 local room_of_a_piece = 0.7  -- of the air that a layer is drawn in; m3
 
--- {x, y, z} of a vector in either way of writing it.
-local function listed(v) return { v[1] or v.x, v[2] or v.y, v[3] or v.z } end
+-- {x, y, z} of a vector in either way of writing it; nil: it is no vector that rubble.rotate takes.
+local function listed(v)
+  if type(v) ~= "table" then return nil end
+  local list = { v[1] or v.x, v[2] or v.y, v[3] or v.z }
+  for k = 1, 3 do
+    if type(list[k]) ~= "number" or not (math.abs(list[k]) <= 1e6) then return nil end
+  end
+  return list
+end
+
+local function can_be_moved(item)
+  return type(item) == "table" and listed(item.position) and (item.rpy_deg == nil or listed(item.rpy_deg))
+end
 
 local function moved(o, item)
   local copy = {}
@@ -29,7 +40,7 @@ end
 -- Extends the rectangle by the eight corners of a box; an asset counts as one metre each way.
 local function include(rectangle, item)
   local size = item.box and listed(item.box)
-  local reach = 2 * (item.scale or 1)
+  local reach = 2 * (type(item.scale) == "number" and item.scale or 1)
   if not size then size = { reach, reach, reach } end
   for i = 0, 7 do
     local corner = { size[1] * (i % 2 - 0.5), size[2] * (i // 2 % 2 - 0.5), size[3] * (i // 4 - 0.5) }
@@ -41,10 +52,11 @@ local function include(rectangle, item)
 end
 
 return function(o, placed)
+  if type(placed) ~= "table" then error("rubble.assemble takes a list of pieces second, not a " .. type(placed), 2) end
   local pile = { placed = {}, layers = 0 }
   local r = { x0 = 1e9, x1 = -1e9, y0 = 1e9, y1 = -1e9 }
   for i, item in ipairs(placed) do
-    if type(item) == "table" and type(item.position) == "table" then
+    if can_be_moved(item) then
       pile.placed[i] = moved(o, item)
       include(r, pile.placed[i])
     else

@@ -1,9 +1,12 @@
 -- rubble.robot_options(model, given, list): an entry of `robots` from a model's own parameters and those
 -- that every robot has.
 return function(model, given, list)
-  local plain = {}
-  for name, value in pairs(given or {}) do plain[name] = value end
-  if type(plain.control) == "function" then plain.control = rubble.controller(plain.control) end
+  local plain = given  -- where it is no table, rubble.options says so
+  if type(given) == "table" then
+    plain = {}
+    for name, value in pairs(given) do plain[name] = value end
+    if type(plain.control) == "function" then plain.control = rubble.controller(plain.control) end
+  end
   local common = {
     { "name", nil, type = "string", doc = "As `robots[].name`." },
     { "position", { 0, 0, 0 }, min = -1000, max = 1000, unit = "m", doc = "As `robots[].position`." },

@@ -281,7 +281,7 @@ int reject_option(lua_State* lua) {
   const std::string function = luaL_checkstring(lua, 1);
   Diagnostic d;
   d.key = function + "." + luaL_checkstring(lua, 2);
-  d.message = "out of range";
+  d.message = lua_isnoneornil(lua, 4) ? "missing" : "out of range";
   d.expected = luaL_checkstring(lua, 3);
   d.found = describe(read_lua_value(lua, 4));
   note_mistakes(lua, function, {d});
@@ -298,6 +298,7 @@ int rotate_vector(lua_State* lua) {
       if (lua_getfield(lua, index, kNames[i]) == LUA_TNIL) lua_rawgeti(lua, index, i + 1);
       luaL_argcheck(lua, lua_isnumber(lua, -1), index, "three numbers {x, y, z} expected");
       v[i] = lua_tonumber(lua, -1);
+      luaL_argcheck(lua, std::isfinite(v[i]), index, "three finite numbers {x, y, z} expected");
       luaL_argcheck(lua, std::abs(v[i]) <= 1e6, index, "number too large");
     }
     return v;

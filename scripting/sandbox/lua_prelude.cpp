@@ -101,10 +101,29 @@ end
 -- that could put __gc into it could run where no limit holds.
 local vec, methods = {}, {}
 vec.__index = methods
-local function make_vec(x, y, z) return setmetatable({ x = x or 0, y = y or 0, z = z or 0 }, vec) end
+local function make_vec(x, y, z) return setmetatable({ x = x, y = y, z = z }, vec) end
+local function raw_parts(v) return v.x or v[1], v.y or v[2], v.z or v[3] end
+local function are_numbers(x, y, z) return type(x) == "number" and type(y) == "number" and type(z) == "number" end
 local function parts(v)
   if type(v) ~= "table" then error("a vector is {x, y, z}, not a " .. type(v), 3) end
-  return v.x or v[1], v.y or v[2], v.z or v[3]
+  local x, y, z = raw_parts(v)
+  if not are_numbers(x, y, z) then error("a vector is three numbers {x, y, z}, not a table without them", 3) end
+  return x, y, z
+end
+-- rubble.vec(x, y, z); rubble.vec() is zero.
+local function vec_of(...)
+  local count = select("#", ...)
+  local x, y, z = ...
+  if count == 0 then x, y, z = 0, 0, 0 end
+  if count > 3 or not are_numbers(x, y, z) then
+    local words = { ... }
+    for i = 1, count do
+      local word = plain_tostring(words[i])
+      words[i] = type(words[i]) == "string" and '"' .. word .. '"' or word
+    end
+    error("rubble.vec: expected three numbers (x, y, z), found (" .. table.concat(words, ", ", 1, count) .. ")", 2)
+  end
+  return make_vec(x, y, z)
 end
 function vec.__add(a, b)
   local ax, ay, az = parts(a); local bx, by, bz = parts(b)
@@ -115,13 +134,17 @@ function vec.__sub(a, b)
   return make_vec(ax - bx, ay - by, az - bz)
 end
 function vec.__mul(a, b)
-  if type(a) == "number" then a, b = b, a end
+  if type(a) ~= "table" then a, b = b, a end
+  if type(b) ~= "number" then
+    local what = type(b) == "table" and "vector" or type(b)
+    error("a vector times a " .. what .. ": expected a number; v:dot(w) and v:cross(w) multiply two vectors", 2)
+  end
   local x, y, z = parts(a)
   return make_vec(x * b, y * b, z * b)
 end
 function vec.__unm(a) local x, y, z = parts(a); return make_vec(-x, -y, -z) end
 function vec.__eq(a, b)
-  local ax, ay, az = parts(a); local bx, by, bz = parts(b)
+  local ax, ay, az = raw_parts(a); local bx, by, bz = raw_parts(b)
   return ax == bx and ay == by and az == bz
 end
 local function dot(a, b)
@@ -176,7 +199,7 @@ rubble = {
   random = stream,
   include = host.include,
   controller = host.controller,
-  vec = make_vec,
+  vec = vec_of,
   options = host.options,
   parameter = function(name, default, more)
     local entry = { name, default }

@@ -124,8 +124,8 @@ TEST(PlacedErrors, AssetOrBox) {
 // What the reference and the errors rest on: every mode describes itself whole.
 TEST(CollapseLibrary, EveryParameterIsDescribed) {
   const std::vector<DescribedFunction> modes = LuaSandbox::describe_library();
-  EXPECT_EQ(modes.size(), 11u + 4 + 2 + 7 + 1 + 7)
-      << "modes, densities, terrain, paths, find_void and robots";
+  EXPECT_EQ(modes.size(), 11u + 4 + 2 + 7 + 1 + 7 + 2)
+      << "modes, densities, terrain, paths, find_void, robots, slab and wall";
   for (const DescribedFunction& mode : modes) {
     OptionTable table(mode.description);
     for (const Key& key : table.schema().keys()) {
@@ -154,7 +154,7 @@ TEST(JoinedPiles, KeepBuildingAndTerrain) {
   EXPECT_EQ(join("rubble.collapse.lean_to {}, rubble.building { storeys = 3 }").building.storeys, 3);
 }
 
-// Half of the pieces fall where the first part says, half where the second does, spread as each says.
+// As many pieces fall where each part says as it has alone, spread as it says.
 TEST(JoinedPiles, KeepDensitiesWhereTheyAre) {
   const std::string alone = "{ layers = 1, pieces_per_layer = 30, spawn_position = { 2, 0, 3 }, spawn_bounds = { 4, 2, 3 }, "
                             "spawn_density = { columns = 4, rows = 1, weights = { 0, 1, 0, 3 } } }";
@@ -164,14 +164,26 @@ TEST(JoinedPiles, KeepDensitiesWhereTheyAre) {
   const PileScenario two = join(alone + ", { layers = 2, pieces_per_layer = 10, spawn_position = { x = -1, y = 0, z = 3 }, "
                                         "spawn_bounds = { 2, 2, 3 } }");
   EXPECT_EQ(two.layers, 2);
-  EXPECT_EQ(two.pieces_per_layer, 40);
+  EXPECT_EQ(two.pieces_per_layer, 25) << "50 pieces together, as alone";
   EXPECT_EQ(two.spawn_position.x, 1);
   EXPECT_EQ(two.spawn_bounds.x, 6);
   ASSERT_EQ(two.spawn_density.columns, 6);
   ASSERT_EQ(two.spawn_density.rows, 1);
-  const double right[] = {5, 5, 0, 7.5, 0, 22.5};
+  const double right[] = {5, 5, 0, 3.75, 0, 11.25};
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(two.spawn_density.weights[i], right[i], 1e-9) << i;
   EXPECT_TRUE(join("rubble.collapse.lean_to {}, rubble.collapse.pancake {}").spawn_density.weights.empty());
+}
+
+TEST(JoinedPiles, DropAsManyPiecesAsTheirParts) {
+  const PileScenario mixed = join("{ layers = 10, pieces_per_layer = 1 }, { layers = 1, pieces_per_layer = 10 }");
+  EXPECT_EQ(mixed.layers, 10);
+  EXPECT_EQ(mixed.pieces_per_layer, 2);
+  const PileScenario alike = join("{ layers = 3, pieces_per_layer = 7 }, { layers = 3, pieces_per_layer = 4 }");
+  EXPECT_EQ(alike.layers, 3);
+  EXPECT_EQ(alike.pieces_per_layer, 11);
+  const PileScenario idle = join("{ layers = 3, pieces_per_layer = 0 }, { layers = 2, pieces_per_layer = 5 }");
+  EXPECT_EQ(idle.layers, 2) << "the other part drops nothing";
+  EXPECT_EQ(idle.pieces_per_layer, 5);
 }
 
 TEST(JoinedPiles, WhatFallsHasTheDefaultsOfAMission) {
@@ -195,6 +207,73 @@ TEST(JoinedPiles, RefuseWhatCannotBeJoined) {
   const std::string fine = "{ layers = 1, spawn_density = rubble.density.from(function() return 1 end, { columns = 200 }) }";
   EXPECT_NE(error(fine + ", { layers = 1 }").find("100 x 100 at most"), std::string::npos);
   EXPECT_EQ(error(fine + ", rubble.building {}"), "");
+  EXPECT_EQ(error("{ layers = 1, pieces_per_layer = 1 }, { layers = 2, pieces_per_layer = 5 }"),
+            "m.lua:2: rubble.join: 11 pieces (1 x 1, 2 x 5) do not fill 2 layers evenly: give all parts the same number of `layers`");
+  EXPECT_EQ(error("{ layers = 0 / 0 - 1 }").find("m.lua:2: rubble.join: part 1 has layers = "), 0u);
+  EXPECT_EQ(error("{ pieces_per_layer = 2.5 }"),
+            "m.lua:2: rubble.join: part 1 has pieces_per_layer = 2.5: expected a whole number from 0 to 100000");
+  EXPECT_EQ(error("{ layers = 1, spawn_bounds = { 1, 2 } }"),
+            "m.lua:2: rubble.join: the spawn_bounds of part 1 is not three numbers {x, y, z} above 0");
+  EXPECT_EQ(error("{}, { placed = { box = { 1, 1, 1 } } }"),
+            "m.lua:2: rubble.join: the `placed` of part 2 has the key box: expected a list of pieces {{...}, {...}}");
+}
+
+PlacedItem placed(const std::string& piece) {
+  return load_mission_text("return { pile = { layers = 0, placed = { " + piece + " } } }", "m.lua").scenario.pile.placed.at(0);
+}
+
+std::string piece_error(const std::string& piece) {
+  return mission_error("return { pile = { layers = 0, placed = { " + piece + " } } }");
+}
+
+TEST(PlacedBoxes, TakeWhatABoxHas) {
+  const PlacedItem wall = placed("rubble.wall { x0 = 0, x1 = 1, width = 2, height = 3, material = 'brick', fixed = false, broken = { '+z' } }");
+  EXPECT_EQ(*wall.box, Vec3(1, 2, 3));
+  EXPECT_EQ(wall.position, Vec3(0.5, 0, 1.5));
+  EXPECT_EQ(wall.material, "brick");
+  EXPECT_EQ(wall.broken, std::vector<std::string>{"+z"});
+  EXPECT_FALSE(wall.fixed);
+  const PlacedItem plain = placed("rubble.wall { x0 = 0, x1 = 1, width = 2, height = 3 }");
+  EXPECT_EQ(plain.material, PlacedItem().material);
+  EXPECT_TRUE(plain.fixed);
+  for (const char* from : {"{0, 0, 1}", "{x = 0, y = 0, z = 1}", "rubble.vec(0, 0, 1)"}) {
+    const PlacedItem slab = placed("rubble.slab { from = " + std::string(from) + ", size = rubble.vec(4, 2, 0.5), material = 'timber' }");
+    EXPECT_EQ(slab.position, Vec3(2, 0, 1.25)) << from;
+    EXPECT_EQ(*slab.box, Vec3(4, 2, 0.5));
+    EXPECT_EQ(slab.material, "timber");
+  }
+}
+
+TEST(PlacedBoxes, RefuseEverythingElse) {
+  const auto expect_in = [](const char* words, const std::string& piece) {
+    const std::string error = piece_error(piece);
+    EXPECT_NE(error.find(words), std::string::npos) << piece << "\n" << error;
+  };
+  const std::string wall = "rubble.wall { x0 = 0, x1 = 1, width = 2, height = 3, ", slab = "rubble.slab { size = {4, 2, 0.2}, ";
+  expect_in("m.lua:1: rubble.wall.foo: unknown key `foo`", wall + "foo = 1 }");
+  expect_in("rubble.wall.rpy_deg: unknown key", wall + "rpy_deg = {0, 0, 30} }");
+  expect_in("rubble.wall.bottom: out of range", wall + "bottom = 0 / 0 }");
+  expect_in("rubble.wall.height: out of range: expected more than `bottom`, found 3", wall + "bottom = 3 }");
+  expect_in("did you mean `height`?", "rubble.wall { x0 = 0, x1 = 1, width = 2, heigth = 3 }");
+  expect_in("rubble.wall.height: missing: expected a number, found nothing", "rubble.wall { x0 = 0, x1 = 1, width = 2, heigth = 3 }");
+  expect_in("rubble.wall.x1: out of range: expected more than `x0`", "rubble.wall { x0 = 2, x1 = 1, width = 2, height = 3 }");
+  expect_in("rubble.slab.from: missing: expected three numbers {x, y, z}, found nothing", slab + "}");
+  for (const char* key : {"position", "rpy_deg"})
+    expect_in("unknown key", slab + "from = {0, 0, 1}, " + key + " = {9, 9, 9} }");
+  expect_in("rubble.slab.scale: unknown key", slab + "from = {0, 0, 1}, scale = 2 }");
+  expect_in("rubble.slab.from: wrong type: expected three numbers", slab + "from = {0, 1} }");
+  expect_in("rubble.slab.pitch_deg: out of range", slab + "from = {0, 0, 1}, pitch_deg = 0 / 0 }");
+  expect_in("rubble.slab: wrong type: expected a table, found 5", "rubble.slab(5)");
+  expect_in("rubble.slab.size: missing", "rubble.slab()");
+}
+
+TEST(CollapseErrors, WhatIsNoTable) {
+  EXPECT_EQ(mission_error("return { pile = rubble.building(5) }"),
+            "m.lua:1: rubble.building: wrong type: expected a table, found 5 (write rubble.building{ ... })");
+  EXPECT_NE(mission_error("return { robots = { rubble.robot.snake('x') } }").find(
+                "m.lua:1: rubble.robot.snake: wrong type: expected a table, found the string \"x\""), std::string::npos);
+  EXPECT_NE(mission_error("return { pile = rubble.collapse.free { pieces = { box = {1, 1, 1} } } }")
+                .find("rubble.collapse.free.pieces: out of range: expected a list of pieces"), std::string::npos);
 }
 
 }  // namespace collapse_errors_test

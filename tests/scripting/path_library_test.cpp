@@ -202,6 +202,19 @@ TEST_F(PathFiles, MistakesInFilesNameTheirLine) {
   EXPECT_NE(error("trajectory = rubble.trajectory.file {}").find("rubble.trajectory.file.path: out of range"), std::string::npos);
 }
 
+TEST_F(PathFiles, ATrajectoryIsReadWithAndWithoutOptions) {
+  write("a.csv", "t,x,y,z\n0,1,2,3\n1,1,2,3\n");
+  const auto read = [&](const std::string& options) {
+    return "trajectory = { waypoints = rubble.read_trajectory('a.csv'" + options + ").poses }";
+  };
+  const auto error = [&](const std::string& options) { return error_of([&] { load(read(options)); }); };
+  EXPECT_EQ(load(read("")).scenario.trajectory.waypoints.size(), 2u);
+  EXPECT_EQ(load(read(", { frame = 'body' }")).scenario.trajectory.waypoints.size(), 2u);
+  EXPECT_NE(error(", { fram = 'body' }").find("rubble.read_trajectory: unknown key `fram`: expected frame, columns"), std::string::npos);
+  EXPECT_NE(error(", { frame = 'boby' }").find("expected \"optical\", \"body\" or \"as the format says\", found \"boby\""), std::string::npos);
+  EXPECT_NE(error(", { columns = {} }").find("rubble.read_trajectory: columns: expected a string, found a table"), std::string::npos);
+}
+
 // 2 x 2 pixels, grey: 255 0 / 64 128. Written by another program.
 const unsigned char kPng[] = {
     0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52,

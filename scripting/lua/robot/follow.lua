@@ -3,6 +3,8 @@
 -- the arc through the point of the path that is `lookahead` ahead of the robot.
 local name = "rubble.robot.follow"
 
+local function is_finite(v) return type(v) == "number" and math.abs(v) < math.huge end
+
 return function(given)
   local o = rubble.options(name, given, {
     { "path", {}, type = "table",
@@ -18,9 +20,10 @@ return function(given)
     return function() return {} end
   end
   for i, p in ipairs(o.path) do
-    if type(p) ~= "table" or type(p[1]) ~= "number" or type(p[2]) ~= "number" then
-      error(name .. ".path[" .. i .. "] is not a point {x, y}", 2)
-    end
+    local x, y
+    if type(p) == "table" then x, y = p[1] or p.x, p[2] or p.y end
+    if not (is_finite(x) and is_finite(y)) then error(name .. ".path[" .. i .. "] is not a point {x, y}", 2) end
+    o.path[i] = { x, y }
   end
 
   -- The path from its start: leg i begins at length[i].

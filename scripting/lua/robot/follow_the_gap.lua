@@ -13,8 +13,8 @@ return function(given)
     { "turn", 1.2, min = 0.05, max = 10, unit = "rad/s", doc = "Largest angular velocity." },
     { "near", 0.3, min = 0.01, max = 10, unit = "m", doc = "Distance at which the goal is reached." },
   })
-  local ahead, aside = o.goal[1], o.goal[2]
-  if type(ahead) ~= "number" or type(aside) ~= "number" then
+  local ahead, aside = o.goal[1] or o.goal.x, o.goal[2] or o.goal.y
+  if type(ahead) ~= "number" or type(aside) ~= "number" or not (math.abs(ahead) + math.abs(aside) < math.huge) then
     rubble.reject(name, "goal", "a point {ahead, to the left}", o.goal)
     return function() return {} end
   end

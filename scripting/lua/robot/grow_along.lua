@@ -2,6 +2,8 @@
 -- follow the arc through the point of the path that is `lookahead` ahead of the tip.
 local name = "rubble.robot.grow_along"
 
+local function is_finite(v) return type(v) == "number" and math.abs(v) < math.huge end
+
 return function(given)
   local o = rubble.options(name, given, {
     { "path", {}, type = "table", doc = "Points {x, y, z} in the world, starting at the base; unit: m." },
@@ -17,9 +19,12 @@ return function(given)
     return function() return {} end
   end
   for i, p in ipairs(o.path) do
-    for k = 1, 3 do
-      if type(p) ~= "table" or type(p[k]) ~= "number" then error(name .. ".path[" .. i .. "] is not a point {x, y, z}", 2) end
+    local x, y, z
+    if type(p) == "table" then x, y, z = p[1] or p.x, p[2] or p.y, p[3] or p.z end
+    if not (is_finite(x) and is_finite(y) and is_finite(z)) then
+      error(name .. ".path[" .. i .. "] is not a point {x, y, z}", 2)
     end
+    o.path[i] = { x, y, z }
   end
 
   local function minus(a, b) return { a[1] - b[1], a[2] - b[2], a[3] - b[3] } end

@@ -13,12 +13,14 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
+#include "scripting/values/value.h"
 
 namespace rubble::python {
 
@@ -73,26 +75,90 @@ inline std::vector<Vec3> to_points(const DoubleArray& values, const char* name) 
   return points;
 }
 
+constexpr double kFarthest = 1e9;  // that rays are cast from and to; beyond what float squares can hold, Embree aborts; unit: m
+
+// Above 0 and at most `most`, which nan never is. Throws InputError.
+inline void expect_positive(double value, const char* name, double most = std::numeric_limits<double>::infinity()) {
+  if (value > 0 && value <= most) return;
+  std::string expected = "more than 0";
+  if (std::isfinite(most)) expected += ", at most " + format_number(most);
+  throw InputError({"", 0, name, "out of range", expected, format_number(value), ""});
+}
+
 // A pose as x, y, z, then the quaternion w, x, y, z of any length but zero.
 inline Pose to_pose(const DoubleArray& values, const char* name) {
   if (values.ndim() != 1 || values.shape(0) != 7)
     throw InputError({"", 0, name, "wrong shape", "(7,): x y z qw qx qy qz", shape_of(values), ""});
   expect_finite(values, name);
   const double* v = values.data();
+  for (int i = 0; i < 3; ++i)
+    if (!(std::abs(v[i]) <= kFarthest))
+      throw InputError({"", 0, name, "out of range", "x y z from -1e9 to 1e9 m", format_number(v[i]), ""});
   const Quat q{v[3], v[4], v[5], v[6]};
-  if (!(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z > 1e-12))
-    throw InputError({"", 0, name, "no rotation", "a quaternion that is not zero", "zeros", ""});
+  const double squares = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+  if (!(squares > 1e-12 && std::isfinite(squares)))
+    throw InputError({"", 0, name, "no rotation", "a quaternion that is not zero", squares > 1 ? "too large numbers" : "zeros", ""});
   return {normalized(q), {v[0], v[1], v[2]}};
 }
 
-// A whole number of 64 bits without a sign. Throws InputError for anything else, where nanobind would list signatures.
-inline std::uint64_t to_seed(const nb::object& value) {
+// A whole number from 0 to `most`. Throws InputError for anything else, where nanobind would list signatures.
+inline std::uint64_t to_whole(const nb::object& value, const char* name, std::uint64_t most) {
   const nb::object whole = nb::steal<nb::object>(PyNumber_Index(value.ptr()));
-  const std::uint64_t seed = whole ? PyLong_AsUnsignedLongLong(whole.ptr()) : 0;
-  if (whole && !PyErr_Occurred()) return seed;
+  const std::uint64_t found = whole ? PyLong_AsUnsignedLongLong(whole.ptr()) : 0;
+  if (whole && !PyErr_Occurred() && found <= most) return found;
   PyErr_Clear();
-  throw InputError({"", 0, "seed", "out of range", "a whole number from 0 to 18446744073709551615",
+  throw InputError({"", 0, name, "out of range", "a whole number from 0 to " + std::to_string(most), nb::repr(value).c_str(), ""});
+}
+
+inline std::uint64_t to_seed(const nb::object& value) {
+  return to_whole(value, "seed", std::numeric_limits<std::uint64_t>::max());
+}
+
+// Of a mission, as rubble run --seed takes it: missions keep it as an integer of Lua.
+inline std::uint64_t to_mission_seed(const nb::object& value) {
+  return to_whole(value, "seed", std::uint64_t(std::numeric_limits<std::int64_t>::max()));
+}
+
+// As rubble run --threads; 0: one per processor.
+inline int to_threads(const nb::object& value) { return int(to_whole(value, "threads", 256)); }
+
+// Text, bytes or an os.PathLike. Throws InputError for anything else.
+inline std::string to_path(const nb::object& value, const char* name) {
+  PyObject* bytes = nullptr;
+  if (PyUnicode_FSConverter(value.ptr(), &bytes)) {
+    const nb::object kept = nb::steal<nb::object>(bytes);
+    return {PyBytes_AsString(bytes), std::size_t(PyBytes_Size(bytes))};
+  }
+  PyErr_Clear();
+  throw InputError({"", 0, name, "is no path", "text, bytes or an os.PathLike, without a zero character",
                     nb::repr(value).c_str(), ""});
+}
+
+// What a list has, each made by `make`. One text is no list: it would be taken for its letters.
+template <typename Make>
+std::vector<std::string> to_list(const nb::object& values, const char* name, const char* expected, const Make& make) {
+  const bool one = PyUnicode_Check(values.ptr()) || PyBytes_Check(values.ptr());
+  const nb::object items = one ? nb::object() : nb::steal<nb::object>(PySequence_List(values.ptr()));
+  if (!items) {
+    PyErr_Clear();
+    const std::string found = nb::repr(values).c_str();
+    throw InputError({"", 0, name, "is no list", expected, found, one ? "put it in a list: [" + found + "]" : ""});
+  }
+  std::vector<std::string> made;
+  for (const nb::handle item : nb::borrow<nb::list>(items)) made.push_back(make(nb::borrow<nb::object>(item)));
+  return made;
+}
+
+inline std::vector<std::string> to_overrides(const nb::object& values, const char* name) {
+  return to_list(values, name, "a list of texts, \"key=value\"", [name](const nb::object& item) -> std::string {
+    std::string text;
+    if (nb::try_cast(item, text, false)) return text;
+    throw InputError({"", 0, name, "is no text", "a list of texts, \"key=value\"", nb::repr(item).c_str(), ""});
+  });
+}
+
+inline std::vector<std::string> to_folders(const nb::object& values, const char* name) {
+  return to_list(values, name, "a list of folders", [name](const nb::object& item) { return to_path(item, name); });
 }
 
 // An array of numpy in C order that owns its values. Every array of the module is made here; a test looks for arrays that

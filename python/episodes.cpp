@@ -35,12 +35,13 @@ std::vector<std::uint8_t> to_rgb(const Picture& picture) {
 
 void add_episodes(nb::module_& module) {
   nb::class_<LerobotDataset>(module, "_LerobotDataset")
-      .def("__init__", [](LerobotDataset* made, const std::string& path, const std::vector<std::string>& videos,
+      .def("__init__", [](LerobotDataset* made, const nb::object& path, const std::vector<std::string>& videos,
                           const std::vector<FeatureGiven>& features, const std::optional<std::string>& robot_type, const std::string& task,
                           double rate_hz) {
+        expect_positive(rate_hz, "rate_hz", 1e9);
         LerobotDataset::Spec spec{videos, {}, robot_type, task, rate_hz, true};
         for (const FeatureGiven& feature : features) spec.features.push_back(to_feature(feature));
-        new (made) LerobotDataset(path, std::move(spec), recording_threads());
+        new (made) LerobotDataset(to_path(path, "path"), std::move(spec), recording_threads());
       })
       .def("add_picture", [](LerobotDataset& d, std::size_t video, std::int64_t since_ns, const Picture& picture) {
         d.add_picture(video, since_ns, int(picture.shape(1)), int(picture.shape(0)), to_rgb(picture));

@@ -16,14 +16,22 @@
 namespace rubble::python {
 namespace {
 
+constexpr double kMostVoxels = 1e9;   // of the grid around a void
 constexpr int kSeenStride = 4;   // of the pixels whose rays show cells, each way
+constexpr double kLongestWay = 1000;  // of a move; unit: m
 constexpr double kProbe = 0.25;  // of the radius: how finely a way is looked at for what stands in it
 
 VoxelGrid grid_around(const std::vector<Vec3>& centres, double voxel) {
+  if (centres.empty()) throw InputError({"", 0, "cells", "no cells", "the cells of a void", "none", ""});
+  expect_positive(voxel, "voxel", 1);
   Aabb box;
   for (const Vec3& c : centres) box.include(c);
   VoxelGrid grid;
   grid.voxel = voxel;
+  const Vec3 most = (box.max - box.min) * (1 / voxel) + Vec3{1, 1, 1};
+  if (!(most.x * most.y * most.z < kMostVoxels))
+    throw InputError({"", 0, "voxel", "the grid around the cells is too large", "at most " + format_number(kMostVoxels) + " voxels",
+                      format_number(most.x * most.y * most.z), "ask for larger voxels"});
   grid.corner = box.min - Vec3{0.5, 0.5, 0.5} * voxel;
   for (int k = 0; k < 3; ++k)
     grid.size[std::size_t(k)] = int(std::floor((box.max[k] - box.min[k]) / voxel + 0.5)) + 1;
@@ -45,7 +53,11 @@ class Explorer {
            double fov_deg, double max_range, int threads)
       : pile_(std::move(pile)), world_(pile_->world), queries_(pile_->queries),
         rays_(pinhole(size, size, fov_deg), 2 * max_range), pool_(threads), radius_(radius), max_range_(max_range),
-        seen_(make_seen(to_points(cells, "cells"), voxel)) {}
+        seen_(make_seen(to_points(cells, "cells"), voxel)) {
+    expect_positive(max_range, "max_range", kFarthest);
+    if (!(radius >= 0.001 && radius <= 100))
+      throw InputError({"", 0, "radius", "out of range", "0.001 to 100 m", format_number(radius), ""});
+  }
 
   void forget() { seen_.forget(), clearance_ = 0; }
   // shift: of the principal point; unit: pixel
@@ -81,6 +93,8 @@ class Explorer {
   nb::tuple move(const DoubleArray& from_row, const DoubleArray& way_row) {
     const Vec3 from = to_points(from_row, "from").at(0), way = to_points(way_row, "way").at(0);
     const double length = norm(way);
+    if (!(length <= kLongestWay))
+      throw InputError({"", 0, "way", "out of range", "at most " + format_number(kLongestWay) + " m", format_number(length), ""});
     // Clearance changes by no more than the distance that is gone.
     if (distance(from, at_) == 0 && clearance_ - length >= radius_) return nb::make_tuple(from_vector(from + way), true);
     const int parts = std::max(1, int(std::ceil(length / (kProbe * radius_))));
@@ -132,8 +146,9 @@ void add_explorer(nb::module_& module) {
   });
   nb::class_<Explorer>(module, "_Explorer")
       .def("__init__", [](Explorer* made, const std::shared_ptr<ExploredPile>& pile, const DoubleArray& cells, double voxel,
-                          double radius, int size, double fov_deg, double max_range, int threads) {
-        new (made) Explorer(pile, cells, voxel, radius, size, fov_deg, max_range, threads);
+                          double radius, int size, double fov_deg, double max_range,
+                          const nb::object& threads) {
+        new (made) Explorer(pile, cells, voxel, radius, size, fov_deg, max_range, to_threads(threads));
       })
       .def("set_camera", &Explorer::set_camera, nb::arg("fov_deg"), nb::arg("shift_x"), nb::arg("shift_y"))
       .def("forget", &Explorer::forget)

@@ -1,6 +1,7 @@
 // settle(), open_pile() and the Pile: what lies where, rays, distances, voids.
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <optional>
 
@@ -43,23 +44,23 @@ struct Pile {
   }
 };
 
-Pile settle(const std::string& mission, const nb::object& seed, const std::vector<std::string>& overrides,
-            int threads) {
+Pile settle(const nb::object& mission, const nb::object& seed, const nb::object& overrides, const nb::object& threads) {
   RunRequest request;
-  request.mission = mission, request.overrides = overrides;
-  if (!seed.is_none()) request.seed = to_seed(seed);
-  RunContext context(quiet(threads));
+  request.mission = to_path(mission, "mission"), request.overrides = to_overrides(overrides, "overrides");
+  if (!seed.is_none()) request.seed = to_mission_seed(seed);
+  RunContext context(quiet(to_threads(threads)));
   auto settled = std::make_shared<SettledMission>();
   settled->mission = resolve_mission(request, RunKind::settle, context);
   settled->state = settle_in_memory(settled->mission, context, [] { return true; }).state;
   return {settled, context.threads()};
 }
 
-Pile open_pile(const std::string& folder, int threads, const std::vector<std::string>& assets) {
-  RunContext context(quiet(threads));
-  const FinishedRun saved = open_finished_run(folder);
+Pile open_pile(const nb::object& folder, const nb::object& threads, const nb::object& assets) {
+  RunContext context(quiet(to_threads(threads)));
+  const std::vector<std::string> packs = to_folders(assets, "assets");
+  const FinishedRun saved = open_finished_run(to_path(folder, "folder"));
   auto settled = std::make_shared<SettledMission>();
-  settled->mission = resolve_pile(saved.manifest.provenance, assets, context);
+  settled->mission = resolve_pile(saved.manifest.provenance, packs, context);
   settled->state = load_pile_of(saved, settled->mission.assets);
   return {settled, context.threads()};
 }
@@ -73,7 +74,8 @@ bool settles_alike(const Scenario& base, const Scenario& changed) {
 }
 
 // The same pile under other keys of its mission: light, air, cameras, sensors, robots.
-Pile vary(const Pile& pile, const std::vector<std::string>& overrides) {
+Pile vary(const Pile& pile, const nb::object& given) {
+  const std::vector<std::string> overrides = to_overrides(given, "overrides");
   const ResolvedMission& base = pile.settled->mission;
   const auto load = [&base](const std::vector<std::string>& more) {
     Provenance changed = base.provenance;
@@ -118,10 +120,6 @@ void ask_each(const Pile& pile, std::size_t count, const Ask& ask) {
   });
 }
 
-void expect_positive(double value, const char* name) {
-  if (!(value > 0)) throw InputError({"", 0, name, "out of range", "more than 0", std::to_string(value), ""});
-}
-
 nb::dict cast_rays(Pile& pile, const DoubleArray& origins, const DoubleArray& directions, double max_distance) {
   const std::vector<Vec3> from = to_points(origins, "origins"), along = to_points(directions, "directions");
   expect_positive(max_distance, "max_distance");
@@ -129,7 +127,8 @@ nb::dict cast_rays(Pile& pile, const DoubleArray& origins, const DoubleArray& di
     throw InputError({"", 0, "origins", "not as many as directions", std::to_string(along.size()) + " or 1",
                       std::to_string(from.size()), ""});
   for (const Vec3& d : along)
-    if (!(norm(d) > 0)) throw InputError({"", 0, "directions", "no direction", "not zero", "0 0 0", ""});
+    if (!(norm(d) > 0 && std::isfinite(norm(d))))
+      throw InputError({"", 0, "directions", "no direction", "a length above 0 and below 1e150", format_number(norm(d)), ""});
   const PileQueries& queries = pile.queries();
   const auto count = along.size();
   std::vector<double> distance(count, std::numeric_limits<double>::infinity()), normals(3 * count, 0);
@@ -217,17 +216,17 @@ nb::tuple mesh_of(const Pile& pile) {
 }
 
 // The complete scenario as JSON; what `rubble check` prints.
-std::string check_mission(const std::string& script, const nb::object& seed, const std::vector<std::string>& overrides) {
+std::string check_mission(const nb::object& script, const nb::object& seed, const nb::object& overrides) {
   MissionOptions options;
-  options.overrides = overrides;
-  if (!seed.is_none()) options.seed = to_seed(seed);
-  const Mission mission = load_mission(script, options);
+  options.overrides = to_overrides(overrides, "overrides");
+  if (!seed.is_none()) options.seed = to_mission_seed(seed);
+  const Mission mission = load_mission(to_path(script, "script"), options);
   load_assets(mission, {});
   return scenario_to_json(mission.scenario);
 }
 
-void set_sandbox(const std::optional<std::string>& folder) {
-  folder ? enter_sandbox_of_missions(*folder) : leave_sandbox();
+void set_sandbox(const nb::object& folder) {
+  folder.is_none() ? leave_sandbox() : enter_sandbox_of_missions(to_path(folder, "folder"));
 }
 
 }  // namespace
@@ -256,15 +255,19 @@ void add_pile(nb::module_& module) {
       .def_prop_ro("threads", [](const Pile& p) { return p.threads; });
   nb::class_<SettledMission>(module, "_Settled");
   module.def("settle", &settle, nb::arg("mission"), nb::arg("seed") = nb::none(),
-             nb::arg("overrides") = std::vector<std::string>(), nb::arg("threads") = 0,
+             nb::arg("overrides") = nb::make_tuple(), nb::arg("threads") = 0,
              "Settles the pile of a mission script. overrides: \"key=value\", as rubble run --set.");
   module.def("check_mission", &check_mission, nb::arg("script"), nb::arg("seed") = nb::none(),
-             nb::arg("overrides") = std::vector<std::string>());
-  module.def("set_sandbox", &set_sandbox, nb::arg("folder"),
+             nb::arg("overrides") = nb::make_tuple());
+  // What an argument that is a list of overrides has; raises InputError for a single text.
+  module.def("_overrides", &to_overrides, nb::arg("values"), nb::arg("name") = "overrides");
+  module.def("_folders", &to_folders, nb::arg("values"), nb::arg("name") = "assets");
+  module.def("_threads", &to_threads, nb::arg("threads"));
+  module.def("set_sandbox", &set_sandbox, nb::arg("folder").none(),
              "From now on this process reads missions, packs and what they name only below that folder, as rubble --sandbox; "
              "None: everywhere again. Folders given to open_pile stay open.");
   module.def("open_pile", &open_pile, nb::arg("folder"), nb::arg("threads") = 0,
-             nb::arg("assets") = std::vector<std::string>(),
+             nb::arg("assets") = nb::make_tuple(),
              "The settled pile of a finished run. assets: folders of packs, terrain meshes and URDF files that are not bundled.");
 }
 

@@ -74,7 +74,9 @@ nb::object to_structured(std::vector<ScanPoint>&& points) {
 void add_range_scans(nb::module_& module) {
   nb::class_<PyLidar>(module, "_Lidar")
       .def("__init__", [](PyLidar* made, const SharedPile& s, const std::string& model, bool noise, const nb::object& seed,
-                          int threads) { new (made) PyLidar(s, model, noise, to_seed(seed), threads); })
+                          const nb::object& threads) {
+        new (made) PyLidar(s, model, noise, to_seed(seed), to_threads(threads));
+      })
       .def("scan", &PyLidar::scan, nb::arg("pose"), nb::arg("number") = 0);
 }
 

@@ -1,7 +1,10 @@
 // Messages of recordings, as they are on the wire; rubble/dataset.py knows what they mean.
 
+#include <nanobind/stl/pair.h>
+
 #include <map>
 #include <set>
+#include <utility>
 
 #include "io/ros/ros_message_reader.h"
 #include "kernel/base/error.h"
@@ -16,8 +19,8 @@ bool ends_with(const std::string& text, const std::string& end) {
 }
 
 // Each message's bytes as an array of their own, by topic; topics: empty: of all.
-std::map<std::string, std::vector<nb::bytes>> read_messages(const std::string& path,
-                                                            const std::set<std::string>& topics) {
+std::map<std::string, std::vector<nb::bytes>> read_messages(const nb::object& given, const std::set<std::string>& topics) {
+  const std::string path = to_path(given, "path");
   std::map<std::string, std::vector<nb::bytes>> messages;
   const auto take = [&](const RosMessage& m) {
     const std::string topic(m.topic);
@@ -29,21 +32,24 @@ std::map<std::string, std::vector<nb::bytes>> read_messages(const std::string& p
   return messages;
 }
 
-std::map<std::string, std::int64_t> count_messages(const std::string& path) {
-  std::map<std::string, std::int64_t> counts;
+// By topic: the type of its messages, as a bag names it, and how many there are.
+std::map<std::string, std::pair<std::string, std::int64_t>> list_topics(const nb::object& given) {
+  const std::string path = to_path(given, "path");
+  std::map<std::string, std::pair<std::string, std::int64_t>> topics;
   const auto take = [&](const RosMessage& m) {
-    ++counts[std::string(m.topic)];
+    auto& [type, count] = topics[std::string(m.topic)];
+    type = m.type, ++count;
     return true;
   };
   ends_with(path, ".mcap") ? read_mcap(path, take) : read_bag(path, take);
-  return counts;
+  return topics;
 }
 
 }  // namespace
 
 void add_recordings(nb::module_& module) {
   module.def("read_messages", &read_messages, nb::arg("path"), nb::arg("topics"));
-  module.def("count_messages", &count_messages, nb::arg("path"));
+  module.def("list_topics", &list_topics, nb::arg("path"));
 }
 
 }  // namespace rubble::python

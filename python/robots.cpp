@@ -10,6 +10,8 @@
 namespace rubble::python {
 namespace {
 
+constexpr double kMostCurvature = 1000;  // far beyond what bends a tube; unit: 1/m
+
 void expect(bool fine, const char* key, const char* message, const std::string& expected) {
   if (!fine) throw InputError({"", 0, key, message, expected, "", ""});
 }
@@ -37,6 +39,7 @@ RobotCommand make_twist_command(const RobotModel& model, double linear, double a
 RobotCommand make_growth_command(const RobotModel& model, double speed, double left, double up) {
   expect(model.tube.has_value(), "grow", "this robot does not grow", "a robot with a tube");
   expect_finite({speed, left, up}, "grow", "a finite speed and finite curvatures");
+  expect(std::max(std::abs(left), std::abs(up)) <= kMostCurvature, "grow", "curvature out of range", "-1000 to 1000 1/m");
   return grow_tube(model, speed, left, up);
 }
 

@@ -70,7 +70,9 @@ class FrameRenderer {
 class DepthCamera {
  public:
   DepthCamera(SharedPile settled, int width, int height, double fov_deg, double max_range, int threads)
-      : world_(scene_of(*settled)), rays_(pinhole(width, height, fov_deg), max_range), pool_(threads) {}
+      : world_(scene_of(*settled)), rays_(pinhole(width, height, fov_deg), max_range), pool_(threads) {
+    expect_positive(max_range, "max_range", kFarthest);
+  }
 
   Array<float> depth(const DoubleArray& world_from_camera) {
     const Pose pose = to_pose(world_from_camera, "pose");
@@ -95,12 +97,16 @@ class DepthCamera {
 
 void add_sensors(nb::module_& module) {
   nb::class_<FrameRenderer>(module, "_Renderer")
-      .def("__init__", [](FrameRenderer* made, const SharedPile& s, int threads) { new (made) FrameRenderer(s, threads); })
+      .def("__init__", [](FrameRenderer* made, const SharedPile& s, const nb::object& threads) {
+        new (made) FrameRenderer(s, to_threads(threads));
+      })
       .def("render", &FrameRenderer::render, nb::arg("pose"), nb::arg("width") = 640, nb::arg("height") = 480,
            nb::arg("fov_deg") = 90.0, nb::arg("number") = 0, nb::arg("shift") = std::array<double, 2>{0, 0});
   nb::class_<DepthCamera>(module, "_DepthCamera")
       .def("__init__", [](DepthCamera* made, const SharedPile& s, int width, int height, double fov_deg, double max_range,
-                          int threads) { new (made) DepthCamera(s, width, height, fov_deg, max_range, threads); })
+                          const nb::object& threads) {
+        new (made) DepthCamera(s, width, height, fov_deg, max_range, to_threads(threads));
+      })
       .def("depth", &DepthCamera::depth, nb::arg("pose"))
       .def_prop_ro("K", &DepthCamera::matrix, nb::rv_policy::automatic);
   add_range_scans(module);

@@ -225,12 +225,13 @@ class MissionSession {
 
 void add_sessions(nb::module_& module) {
   nb::class_<MissionSession>(module, "_Session")
-      .def("__init__", [](MissionSession* made, const SharedPile& settled, bool observed, bool depth, int threads) {
-        new (made) MissionSession(settled, observed, depth, threads);
+      .def("__init__", [](MissionSession* made, const SharedPile& settled, bool observed, bool depth,
+                          const nb::object& threads) {
+        new (made) MissionSession(settled, observed, depth, to_threads(threads));
       })
       .def("__init__", [](MissionSession* made, const SharedPile& settled, const std::string& robot, const DoubleArray& pose,
-                          bool fixed_debris, int threads, std::optional<double> friction) {
-        new (made) MissionSession(settled, robot, to_pose(pose, "pose"), fixed_debris, threads, friction);
+                          bool fixed_debris, const nb::object& threads, std::optional<double> friction) {
+        new (made) MissionSession(settled, robot, to_pose(pose, "pose"), fixed_debris, to_threads(threads), friction);
       })
       .def("reset", &MissionSession::reset)
       .def("drive", &MissionSession::drive)

@@ -170,11 +170,13 @@ class BagReader {
     if (op == bag::kConnection) {
       topics_[connection] = text_field(record, "topic");
       announced_[connection] = std::string(data);
+      Record about;
+      if (parse_fields(data, about)) types_[connection] = about.fields["type"];
       return;
     }
     sound(op == bag::kMessageData && topics_.count(connection));
     entries_[std::uint32_t(offset)] = {connection, field<std::uint64_t>(record, "time")};
-    enough_ = !take_({ros::Version::ros1, topics_[connection], data});
+    enough_ = !take_({ros::Version::ros1, topics_[connection], data, types_[connection]});
   }
 
   // Behind each chunk: where in it the messages of a connection are.
@@ -226,7 +228,7 @@ class BagReader {
   FileCursor file_;
   const TakeRosMessage& take_;
   bool enough_ = false;
-  std::map<std::uint32_t, std::string> topics_, announced_;  // by connection: name, description
+  std::map<std::uint32_t, std::string> topics_, types_, announced_;  // by connection: name, type, description
   std::map<std::uint32_t, Entry> entries_;  // messages of the chunk, by offset, not yet in an index
   std::set<std::uint64_t> chunks_;          // where they begin
   std::size_t listed_ = 0, listed_chunks_ = 0;

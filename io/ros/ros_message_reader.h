@@ -18,6 +18,7 @@ struct RosMessage {
   ros::Version version = ros::Version::ros1;  // of the wire format
   std::string_view topic;                     // with its leading slash
   std::string_view bytes;                     // on the wire
+  std::string_view type = {};                 // of a bag: sensor_msgs/Image, "" where it says none; of MCAP: ""
 };
 // A message is valid during the call only. Returns whether to go on.
 using TakeRosMessage = std::function<bool(const RosMessage&)>;

@@ -17,7 +17,7 @@ from contextlib import contextmanager
 from typing import Any, Iterable, Iterator, Mapping, Optional, Sequence, Union
 
 from . import _core
-from .mission_text import MissionText, started_with
+from .mission_text import MissionText, Path, path_text, source_text, started_with
 from .program import call, options
 
 _FIXED = ("seed", "status", "state_hash", "bytes", "variant")
@@ -164,20 +164,22 @@ class Batch:
             self._own.shutdown()
 
 
-def batch(mission: Union[MissionText, str, "os.PathLike[str]"], seeds: Union[str, Iterable[int]], out: Union[str, "os.PathLike[str]"],
-          executor: Any = None, vary: Sequence[str] = (), samples: int = 0, overrides: Sequence[str] = (), assets: Sequence[str] = (),
+def batch(mission: Union[MissionText, Path], seeds: Union[str, Iterable[int]], out: Path, executor: Any = None,
+          vary: Sequence[str] = (), samples: int = 0, overrides: Sequence[str] = (), assets: Sequence[Path] = (),
           threads: int = 1, settle: bool = False, storage_options: Mapping[str, Any] = {}) -> Batch:
     """Starts the runs that are not there yet. The arguments are those of `rubble batch`.
 
     seeds: numbers, or a text as "1..100". out: a folder that all workers see, or a target of fsspec ("s3://bucket/folder"), with
     storage_options. executor: what starts the runs: a client of Dask, a RayExecutor, or anything with submit(); None: processes
     of this machine. Workers need this package. A mission that is a file must be seen by them, one that is a text need not."""
+    out, vary = path_text(out, "out"), _core._overrides(vary, "vary")
+    overrides, assets = _core._overrides(overrides), _core._folders(assets)
     words = ["--seeds", seeds if isinstance(seeds, str) else ",".join(str(int(seed)) for seed in seeds)]
     for text in vary:
         words += ["--vary", text]
     words += ["--samples", str(samples)] if samples else []
     words += ["--pile-only"] if settle else []
-    job = {"mission": mission.to_lua() if isinstance(mission, MissionText) else os.fspath(mission), "out": os.fspath(out),
-           "storage": dict(storage_options), "settle": settle, "overrides": list(overrides), "assets": list(assets),
-           "threads": threads, "keys": [text.split("=")[0] for text in vary]}
-    return Batch([*words, *options(None, overrides, assets, 0)], _Target(os.fspath(out), storage_options), job, executor)
+    job = {"mission": source_text(mission), "out": out, "storage": dict(storage_options), "settle": settle,
+           "overrides": overrides, "assets": assets, "threads": _core._threads(threads),
+           "keys": [text.split("=")[0] for text in vary]}
+    return Batch([*words, *options(None, overrides, assets, 0)], _Target(out, storage_options), job, executor)

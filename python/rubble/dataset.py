@@ -13,12 +13,13 @@ from __future__ import annotations
 import json
 import os
 import struct
-from typing import Any
+from typing import Any, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
+from .mission_text import Path, path_text
 
 _ENCODINGS = {"rgb8": ("u1", 3), "mono8": ("u1", 1), "8UC2": ("u1", 2), "16UC1": ("<u2", 1), "16UC2": ("<u2", 2),
               "16UC3": ("<u2", 3), "32FC1": ("<f4", 1), "32FC2": ("<f4", 2), "32FC3": ("<f4", 3), "32SC1": ("<i4", 1),
@@ -119,6 +120,11 @@ def _odometry(data):
     return stamp, (x, y, z, qw, qx, qy, qz)
 
 
+# What each function reads; the wire says nothing of it.
+_KINDS = {_image: "sensor_msgs/Image", _cloud: "sensor_msgs/PointCloud2", _laser_scan: "sensor_msgs/LaserScan", _imu: "sensor_msgs/Imu",
+          _camera_info: "sensor_msgs/CameraInfo", _pose: "geometry_msgs/PoseStamped", _odometry: "nav_msgs/Odometry"}
+
+
 def _mistake(file, key, message, expected):
     parts = [part for part in (file, key, message) if part]
     error = _core.InputError(": ".join(parts) + ": expected " + expected)
@@ -131,18 +137,25 @@ def _mistake(file, key, message, expected):
 class Dataset:
     """The folder of a finished run that has a bag."""
 
-    def __init__(self, folder: str) -> None:
-        self.folder = folder
-        self.bag = os.path.join(folder, "mission.bag")
+    def __init__(self, folder: Path) -> None:
+        self.folder = path_text(folder, "folder")
+        self.bag = os.path.join(self.folder, "mission.bag")
         if not os.path.exists(self.bag):
             raise _mistake(self.bag, "", "no such file", "a run with outputs.bag")
-        with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
+        with open(os.path.join(self.folder, "manifest.json"), encoding="utf-8") as file:
             self.manifest = json.load(file)
-        self.topics = _core.count_messages(self.bag)
+        found = _core.list_topics(self.bag)
+        self.topics = {topic: count for topic, (_, count) in found.items()}
+        self._types = {topic: kind for topic, (kind, _) in found.items()}
 
     def _messages(self, topic, parse):
         if topic not in self.topics:
             raise _mistake(self.bag, topic, "no such topic", "one of " + ", ".join(sorted(self.topics)))
+        wanted = _KINDS.get(parse)
+        if wanted and self._types[topic] != wanted:
+            raise _mistake(self.bag, topic, f"has messages of {self._types[topic]}, not of {wanted}",
+                           "one of " + ", ".join(sorted(t for t, kind in self._types.items() if kind == wanted))
+                           if wanted in self._types.values() else f"a run that records {wanted}")
         found = [parse(m) for m in _core.read_messages(self.bag, {topic})[topic]]
         return np.array([stamp for stamp, _ in found], np.int64), [value for _, value in found]
 
@@ -197,10 +210,10 @@ class Dataset:
         """dict of K (3, 3), width, height, model and D of the first frame."""
         return self._messages(topic, _camera_info)[1][0]
 
-    def pile(self, threads: int = 0, assets: list[str] | None = None) -> _core.Pile:
+    def pile(self, threads: int = 0, assets: Sequence[Path] | None = None) -> _core.Pile:
         """The settled pile. assets: as of open_pile()."""
-        return _core.open_pile(self.folder, threads, assets or [])
+        return _core.open_pile(self.folder, threads, [] if assets is None else assets)
 
 
-def open_dataset(folder: str) -> Dataset:
+def open_dataset(folder: Path) -> Dataset:
     return Dataset(folder)

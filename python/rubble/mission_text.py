@@ -13,6 +13,7 @@ from typing import Any, ClassVar, Iterator, Mapping, Optional, Sequence, Type, T
 from . import _core
 
 _Table = TypeVar("_Table", bound="Keys")
+Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 _WORDS = frozenset("and break do else elseif end false for function goto if in local nil not or repeat return then true until "
                    "while".split())
 
@@ -100,13 +101,13 @@ class MissionText(Keys):
     def check(self, overrides: Sequence[str] = ()) -> dict[str, Any]:
         """The complete scenario, with all defaults, as `rubble check` prints it. Raises InputError with all mistakes."""
         with script_of(self) as path:
-            return json.loads(_core.check_mission(path, None, list(overrides)))
+            return json.loads(_core.check_mission(path, None, overrides))
 
     @classmethod
-    def load(cls: Type[_Table], script: Union[str, "os.PathLike[str]"], overrides: Sequence[str] = ()) -> _Table:
+    def load(cls: Type[_Table], script: Path, overrides: Sequence[str] = ()) -> _Table:
         """The mission of a script: a file, or the text of one. All of its keys are given, also those that had their defaults."""
         with script_of(script) as path:
-            return cls.from_dict(_without_none(json.loads(_core.check_mission(path, None, list(overrides)))))
+            return cls.from_dict(_without_none(json.loads(_core.check_mission(path, None, overrides))))
 
 
 def _without_none(value: Any) -> Any:
@@ -115,11 +116,24 @@ def _without_none(value: Any) -> Any:
     return [_without_none(one) for one in value] if isinstance(value, list) else value
 
 
+def path_text(path: Path, key: str) -> str:
+    """The path as a text. Raises InputError for what is no path."""
+    try:
+        return os.fsdecode(path)
+    except TypeError:
+        raise _mistake(key, f"{path!r} is no path", "text, bytes or an os.PathLike") from None
+
+
+def source_text(mission: Union[MissionText, Path]) -> str:
+    """A mission as a text: a path, or a whole script."""
+    return mission.to_lua() if isinstance(mission, MissionText) else path_text(mission, "mission")
+
+
 @contextmanager
-def started_with(mission: Union[MissionText, str, "os.PathLike[str]"]) -> Iterator[tuple[Optional[str], str]]:
+def started_with(mission: Union[MissionText, Path]) -> Iterator[tuple[Optional[str], str]]:
     """(working folder, script) for the program: of a file itself; of a text a temporary mission.lua, by its name alone, so that
     the provenance of equal texts is equal."""
-    text = mission.to_lua() if isinstance(mission, MissionText) else os.fspath(mission)
+    text = source_text(mission)
     if not isinstance(mission, MissionText) and "\n" not in text and "rubble.mission" not in text:
         yield None, text
         return
@@ -130,15 +144,16 @@ def started_with(mission: Union[MissionText, str, "os.PathLike[str]"]) -> Iterat
 
 
 @contextmanager
-def script_of(mission: Union[MissionText, str, "os.PathLike[str]"]) -> Iterator[str]:
+def script_of(mission: Union[MissionText, Path]) -> Iterator[str]:
     """The path of a script of the mission."""
     with started_with(mission) as (folder, script):
         yield os.path.join(folder or "", script)
 
 
-def settle(mission: Union[MissionText, str, "os.PathLike[str]"], seed: Optional[int] = None, overrides: Sequence[str] = (),
+def settle(mission: Union[MissionText, Path], seed: Optional[int] = None, overrides: Sequence[str] = (),
            threads: int = 0) -> _core.Pile:
     """Settles the pile of a mission: of an object, a file, or the text of a script. overrides: "key=value", as rubble run
-    --set. Files that a text names are looked for in its temporary folder: name them by whole paths."""
+    --set. seed: 0 to 2^63 - 1. threads: 0 to 256; 0: one per processor. Files that a text names are looked for in its temporary
+    folder: name them by whole paths."""
     with script_of(mission) as script:
-        return _core.settle(script, seed, list(overrides), threads)
+        return _core.settle(script, seed, overrides, threads)

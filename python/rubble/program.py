@@ -9,7 +9,7 @@ import sys
 from typing import Any, NoReturn, Optional, Sequence, Union
 
 from . import _core
-from .mission_text import MissionText, started_with
+from .mission_text import MissionText, Path, path_text, started_with
 
 _HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -48,10 +48,11 @@ def call(arguments: Sequence[str], folder: Optional[str] = None) -> int:
     raise error((ran.stderr or ran.stdout).strip() or f"rubble {arguments[0]} ended with exit code {ran.returncode}")
 
 
-def run(mission: Union[MissionText, str, "os.PathLike[str]"], out: Union[str, "os.PathLike[str]"], seed: Optional[int] = None,
-        overrides: Sequence[str] = (), assets: Sequence[str] = (), threads: int = 0, settle: bool = False) -> dict[str, Any]:
+def run(mission: Union[MissionText, Path], out: Path, seed: Optional[int] = None, overrides: Sequence[str] = (),
+        assets: Sequence[Path] = (), threads: int = 0, settle: bool = False) -> dict[str, Any]:
     """Runs a mission as `rubble run` does, in a process of its own, and gives its manifest. settle: only its pile, as `rubble
     settle`."""
+    out = path_text(out, "out")
     with started_with(mission) as (folder, script):
         call(["settle" if settle else "run", script, "--out", os.path.abspath(out), "--quiet",
               *options(seed, overrides, assets, threads)], folder)
@@ -59,9 +60,10 @@ def run(mission: Union[MissionText, str, "os.PathLike[str]"], out: Union[str, "o
         return json.load(file)
 
 
-def options(seed: Optional[int], overrides: Sequence[str], assets: Sequence[str], threads: int) -> list[str]:
+def options(seed: Optional[int], overrides: Sequence[str], assets: Sequence[Path], threads: int) -> list[str]:
     words = [] if seed is None else ["--seed", str(seed)]
-    for flag, values in (("--set", overrides), ("--assets", assets)):
+    for flag, values in (("--set", _core._overrides(overrides)), ("--assets", _core._folders(assets))):
         for value in values:
             words += [flag, os.path.abspath(value) if flag == "--assets" else value]
+    threads = _core._threads(threads)
     return words + (["--threads", str(threads)] if threads else [])

@@ -25,7 +25,8 @@ class Renderer:
 
 
 class DepthCamera:
-    """Planar depth by exact rays, without colour: for loops that need many small pictures."""
+    """Planar depth by exact rays, without colour: for loops that need many small pictures. fov_deg: 1 to 170. max_range: above 0,
+    at most 1e9 m."""
 
     def __init__(self, pile: _core.Pile, width: int = 64, height: int = 64, fov_deg: float = 90.0,
                  max_range: float = 20.0, threads: int = 0) -> None:

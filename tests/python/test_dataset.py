@@ -1,5 +1,6 @@
 """Recordings as arrays, against what the mission says and against rosbag."""
 import os
+import pathlib
 import struct
 import subprocess
 import tempfile
@@ -75,6 +76,13 @@ class Recording(unittest.TestCase):
         self.assertEqual(readings.shape, (51, 6))
         self.assertAlmostEqual(float(np.linalg.norm(readings[:, 3:], axis=1).mean()), 9.81, delta=0.6)
 
+    def test_the_folder_is_text_bytes_or_an_object(self):
+        for out in (pathlib.Path(self.out), os.fsencode(self.out)):
+            data = rubble.open_dataset(out)
+            self.assertEqual((data.folder, data.topics), (self.out, self.data.topics))
+            self.assertEqual(rubble._core.read_messages(os.path.join(out, os.fsencode("mission.bag") if isinstance(out, bytes) else
+                                                                     "mission.bag"), {"/none"}), {})
+
     def test_poses_of_what_is_on_robots(self):
         def poses(topics, topic=None):
             data = rubble.Dataset.__new__(rubble.Dataset)
@@ -95,6 +103,13 @@ class Recording(unittest.TestCase):
         with self.assertRaises(rubble.InputError) as raised:
             self.data.images("/nothing")
         self.assertEqual(raised.exception.key, "/nothing")
+        for call, topics in ((lambda: self.data.images("/imu"), "/camera/depth_registered/image_raw, /camera/rgb/image_raw"),
+                             (lambda: self.data.clouds("/imu"), "/points"), (lambda: self.data.scans("/imu"), "/scan"),
+                             (lambda: self.data.imu("/points"), "/imu"), (lambda: self.data.poses("/imu"), "/ground_truth/pose")):
+            with self.assertRaises(rubble.InputError) as raised:
+                call()
+            self.assertRegex(str(raised.exception), "has messages of sensor_msgs/(Imu|PointCloud2), not of ")
+            self.assertIn("one of " + topics, str(raised.exception))
         with self.assertRaises(rubble.InputError):
             rubble.open_dataset(self.folder.name)
         path = os.path.join(self.out, "mission.bag")

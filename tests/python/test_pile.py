@@ -1,5 +1,6 @@
 """Piles against closed forms and against the program."""
 import os
+import pathlib
 import re
 import subprocess
 import tempfile
@@ -87,10 +88,72 @@ class PileOfABox(unittest.TestCase):
                           (lambda: self.pile.clearance([[np.nan, 0, 0]]), "points"),
                           (lambda: self.pile.cast_rays([[0, 0, 0]], [[0, 0, 0]]), "directions"),
                           (lambda: self.pile.cast_rays(np.zeros((3, 3)), np.ones((2, 3))), "origins"),
+                          (lambda: self.pile.cast_rays([[0, 0, 1]], [[0, 0, 1e300]]), "directions"),
+                          (lambda: self.pile.cast_rays([[0, 0, 1]], [[0, 0, 1]], np.nan), "max_distance"),
                           (lambda: self.pile.cast_rays([[0, 0, 1]], [[0, 0, 1]], -1), "max_distance")):
             with self.assertRaises(rubble.InputError) as raised:
                 call()
             self.assertEqual(raised.exception.key, key)
+
+    def test_paths_are_text_bytes_or_objects(self):
+        for path in (pathlib.Path(self.path), os.fsencode(self.path)):
+            self.assertEqual(rubble.settle(path, threads=1).state_hash, self.pile.state_hash)
+            self.assertEqual(rubble.Mission.load(path).check(), rubble.Mission.load(self.path).check())
+            rubble._core.check_mission(path)
+        self.assertEqual(rubble.settle(BOX.replace("\n", " ").encode(), threads=1).state_hash, self.pile.state_hash)
+        with tempfile.TemporaryDirectory() as folder:
+            for name, kind in (("a", pathlib.Path), ("b", os.fsencode)):
+                out = os.path.join(folder, name)
+                rubble.run(kind(self.path), kind(out), assets=[], settle=True)
+                for given in (out, kind(out)):
+                    self.assertEqual(rubble.open_pile(given, assets=[kind(folder)][:0]).state_hash, self.pile.state_hash)
+            try:
+                rubble.set_sandbox(pathlib.Path(folder))
+            finally:
+                rubble.set_sandbox(None)
+        for call, key in ((lambda: rubble.settle(7), "mission"), (lambda: rubble.open_pile(7), "folder"),
+                          (lambda: rubble.open_pile("a\0b"), "folder"), (lambda: rubble.run(self.path, 7), "out")):
+            with self.assertRaises(rubble.InputError) as raised:
+                call()
+            self.assertEqual(raised.exception.key, key)
+
+    def test_seeds_and_threads_are_refused_with_what_was_given(self):
+        for seed in (2**63, 2**64 - 1, 2**64, -1, 1.5, "x"):
+            for call in (lambda: rubble.settle(self.path, seed=seed), lambda: rubble._core.check_mission(self.path, seed)):
+                with self.assertRaises(rubble.InputError) as raised:
+                    call()
+                self.assertEqual(raised.exception.key, "seed")
+                self.assertIn(f"from 0 to 9223372036854775807, found {seed!r}", str(raised.exception))
+        self.assertEqual(rubble.settle(self.path, seed=2**63 - 1, threads=1).seed, 2**63 - 1)
+        for threads in (-1, 257, 2**40, 1.5):
+            for call in (lambda: rubble.settle(self.path, threads=threads), lambda: rubble.open_pile("none", threads),
+                         lambda: rubble.run(self.path, "none", threads=threads),
+                         lambda: rubble.batch(self.path, [1], "none", threads=threads)):
+                with self.assertRaises(rubble.InputError) as raised:
+                    call()
+                self.assertEqual(raised.exception.key, "threads")
+                self.assertIn(f"from 0 to 256, found {threads!r}", str(raised.exception))
+
+    def test_one_text_is_no_list(self):
+        one = "pile.layers=1"
+        for call, key in ((lambda: rubble.settle(self.path, overrides=one), "overrides"),
+                          (lambda: self.pile.vary("light.type=sun"), "overrides"),
+                          (lambda: rubble.Mission().check(one), "overrides"),
+                          (lambda: rubble.Mission.load(self.path, one), "overrides"),
+                          (lambda: rubble.run(self.path, "none", overrides=one), "overrides"),
+                          (lambda: rubble.run(self.path, "none", assets="packs"), "assets"),
+                          (lambda: rubble.open_pile("none", assets="packs"), "assets"),
+                          (lambda: rubble.batch(self.path, [1], "none", overrides=one), "overrides"),
+                          (lambda: rubble.batch(self.path, [1], "none", vary="wetness=0,1"), "vary"),
+                          (lambda: rubble.batch(self.path, [1], "none", assets=b"packs"), "assets")):
+            with self.assertRaises(rubble.InputError) as raised:
+                call()
+            self.assertEqual((raised.exception.key, len(raised.exception.diagnostics)), (key, 1))
+            self.assertIn("put it in a list: [", raised.exception.diagnostics[0]["hint"])
+        with self.assertRaises(rubble.InputError) as raised:
+            rubble.settle(self.path, overrides=[1])
+        self.assertEqual(raised.exception.key, "overrides")
+        rubble.settle(self.path, overrides=(text for text in ["wetness=0"]), threads=1)
 
 
 class SettledPile(unittest.TestCase):

@@ -61,10 +61,59 @@ class Sensors(unittest.TestCase):
                           (lambda: rubble.DepthCamera(self.pile, 4, 4), "width"),
                           (lambda: rubble.DepthCamera(self.pile).depth([0, 0, 1]), "pose"),
                           (lambda: rubble.DepthCamera(self.pile).depth([0, 0, 1, 0, 0, 0, 0]), "pose"),
+                          (lambda: rubble.DepthCamera(self.pile).depth([0, 0, 1, 1e200, 0, 0, 0]), "pose"),
+                          (lambda: rubble.Lidar(self.pile, seed=-1), "seed"),
+                          (lambda: rubble.Lidar(self.pile, seed=2**64), "seed"),
                           (lambda: rubble.RobotWorld(self.pile, "cat", rubble.pose([0, 0, 1])), "model")):
             with self.assertRaises(rubble.InputError) as raised:
                 call()
             self.assertEqual(raised.exception.key, key)
+
+
+    def test_numbers_that_no_ray_can_have(self):
+        """Embree would end the interpreter."""
+        for wrong in (np.nan, np.inf, 0, -1, 1e300):
+            with self.subTest(wrong), self.assertRaises(rubble.InputError) as raised:
+                rubble.DepthCamera(self.pile, 32, 32, max_range=wrong).depth(rubble.pose([0, 0, 1.5]))
+            self.assertEqual(raised.exception.key, "max_range")
+        far = rubble.pose([0, 0, 1.5])
+        far[0] = 1e38
+        for call in (rubble.DepthCamera(self.pile, 32, 32).depth, rubble.Lidar(self.pile).scan,
+                     lambda pose: rubble.RobotWorld(self.pile, "crawler", pose), lambda pose: rubble.compose(pose, far)):
+            with self.assertRaises(rubble.InputError) as raised:
+                call(far)
+            self.assertIn("from -1e9 to 1e9 m", str(raised.exception))
+        far[0] = -1e9
+        self.assertTrue(np.isinf(rubble.DepthCamera(self.pile, 32, 32).depth(far)[:8]).all())
+        pile = rubble._core._ExploredPile(self.pile._shared)
+        fine = {"cells": [[0, 0, 1], [0.1, 0, 1]], "voxel": 0.1, "radius": 0.15, "max_range": 5.0}
+        def explore(cells, voxel, radius, max_range):
+            return rubble._core._Explorer(pile, cells, voxel, radius, 32, 90.0, max_range, 1)
+        explore(**fine)
+        for key, values in (("voxel", (np.nan, np.inf, 0, -0.1)), ("radius", (np.nan, np.inf, 0, -1)),
+                            ("max_range", (np.nan, np.inf, 0, -1)), ("cells", (np.zeros((0, 3)),))):
+            for wrong in values:
+                with self.subTest(key=key, wrong=wrong), self.assertRaises(rubble.InputError) as raised:
+                    explore(**{**fine, key: wrong})
+                self.assertEqual(raised.exception.key, key)
+        with self.assertRaises(rubble.InputError) as raised:
+            explore(**fine).move([0, 0, 1], [1e300, 0, 0])
+        self.assertEqual(raised.exception.key, "way")
+        with self.assertRaises(rubble.InputError) as raised:
+            explore(**{**fine, "cells": [[0, 0, 0], [1e6, 1e6, 1e6]]})
+        self.assertEqual(raised.exception.key, "voxel")
+
+    def test_threads_are_those_of_the_program(self):
+        eye = rubble.pose([0, 0, 1])
+        for wrong in (-1, 257, 2**40, 1.5, "2"):
+            for call in (lambda: rubble.DepthCamera(self.pile, threads=wrong), lambda: rubble.Renderer(self.pile, threads=wrong),
+                         lambda: rubble.Lidar(self.pile, threads=wrong), lambda: rubble.Session(self.pile, threads=wrong),
+                         lambda: rubble.RobotWorld(self.pile, "crawler", eye, threads=wrong)):
+                with self.assertRaises(rubble.InputError) as raised:
+                    call()
+                self.assertEqual(raised.exception.key, "threads")
+                self.assertIn(f"from 0 to 256, found {wrong!r}", str(raised.exception))
+        rubble.DepthCamera(self.pile, threads=np.int64(2))
 
 
 class Robots(unittest.TestCase):
@@ -98,7 +147,7 @@ class Robots(unittest.TestCase):
         self.assertAlmostEqual(back["length"], state["length"] - 0.4, delta=0.02)
         self.assertLess(np.linalg.norm(back["links"][-1, :3]), np.linalg.norm(state["links"][-1, :3]) - 0.2)
         for call, key in ((lambda: robot.drive(1), "drive"), (lambda: robot.grow(np.inf), "grow"),
-                          (lambda: robot.grow(0.1, np.nan), "grow")):
+                          (lambda: robot.grow(0.1, np.nan), "grow"), (lambda: robot.grow(0.1, 0, -1e300), "grow")):
             with self.assertRaises(rubble.InputError) as raised:
                 call()
             self.assertEqual(raised.exception.key, key)
@@ -122,6 +171,11 @@ class Robots(unittest.TestCase):
         with self.assertRaises(rubble.InputError) as raised:
             robot.step()
         self.assertEqual(raised.exception.key, "pose")
+
+    def test_a_robot_outside_the_world_is_lost(self):
+        for place in ([-2, 0, -1], [500, 0, 0.1]):
+            self.assertTrue(rubble.RobotWorld(self.pile, "crawler", rubble.pose(place)).step()["lost"])
+
 
 RUIN = """return rubble.mission { seed = 4,
   pile = rubble.building { storeys = 1, bays_x = 1, bays_y = 1, span_x = 4, span_y = 4, column = 0.25, piece = 2,

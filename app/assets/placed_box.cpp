@@ -10,11 +10,11 @@
 namespace rubble {
 namespace {
 
-generator::BoxRecipe box_recipe(const PlacedItem& item) {
+generator::BoxRecipe box_recipe(const PlacedItem& item, const Material& material) {
   static const char* const kFaces[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
   generator::BoxRecipe recipe;
   recipe.size = *item.box;
-  recipe.surface = generator::surface_of_material(item.material);
+  recipe.surface = generator::surface_of_look(material.look);
   for (std::size_t i = 0; i < 6; ++i)
     recipe.broken[i] = std::count(item.broken.begin(), item.broken.end(), kFaces[i]) > 0;
   recipe.seed = std::uint32_t(RandomStream(0, placed_box_name(item)).next() >> 40);
@@ -58,7 +58,7 @@ MadeBox make_placed_box(const PlacedItem& item, const std::vector<Material>& mat
     return m.name == item.material;
   });
   auto mesh = std::make_shared<SceneMesh>();
-  mesh->levels = generator::make_box(box_recipe(item));
+  mesh->levels = generator::make_box(box_recipe(item, *material));
   return {box_type(item, *material), mesh, hash_box(mesh->levels.front(), *material)};
 }
 

@@ -138,16 +138,10 @@ std::vector<TriangleMesh> make_box(const BoxRecipe& recipe) {
   return levels;
 }
 
-Surface surface_of_material(const std::string& material) {
-  static const std::map<std::string, Surface> kLooks{{"brick", Surface::brick},
-                                                     {"cinder_block", Surface::cinder_block},
-                                                     {"steel", Surface::steel_galvanised},
-                                                     {"timber", Surface::timber},
-                                                     {"plywood", Surface::timber},
-                                                     {"furniture", Surface::timber},
-                                                     {"drywall", Surface::plaster}};
-  const auto found = kLooks.find(material);
-  return found == kLooks.end() ? Surface::concrete_cast : found->second;
+Surface surface_of_look(const std::string& look) {
+  for (int i = 0; i < kSurfaceCount; ++i)
+    if (look == surface_name(Surface(i))) return Surface(i);
+  return Surface::concrete_cast;
 }
 
 }  // namespace rubble::generator

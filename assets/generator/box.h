@@ -24,7 +24,7 @@ struct BoxRecipe {
 // Closed meshes about the middle of the box, finest first.
 std::vector<TriangleMesh> make_box(const BoxRecipe& recipe);
 
-// What the worn face of a material looks like; concrete for those without a look of their own.
-Surface surface_of_material(const std::string& material);
+// The face of that look (surface_name()); cast concrete where there is none.
+Surface surface_of_look(const std::string& look);
 
 }  // namespace rubble::generator

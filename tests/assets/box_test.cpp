@@ -72,8 +72,8 @@ TEST(Box, BrokenFacesLookBroken) {
 }
 
 TEST(Box, MaterialsHaveTheirLooks) {
-  EXPECT_EQ(surface_of_material("brick"), Surface::brick);
-  EXPECT_EQ(surface_of_material("reinforced_concrete"), Surface::concrete_cast);
+  EXPECT_EQ(surface_of_look("brick"), Surface::brick);
+  EXPECT_EQ(surface_of_look("steel_galvanised"), Surface::steel_galvanised);
 }
 
 }  // namespace box_test

@@ -4,13 +4,14 @@
 #include <set>
 #include <utility>
 
+#include "app/support/print.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
 namespace {
 
 constexpr double kFinestVoxel = 0.02, kCoarsestVoxel = 0.1;  // unit: m
-constexpr double kVoxelsPerRadius = 4;
+constexpr double kVoxelsPerRadius = 4, kLeastPerRadius = 2;
 
 std::set<double> void_radii(const TrajectorySpec& spec) {
   std::set<double> radii;
@@ -93,9 +94,22 @@ PileSpace::PileSpace(PileSurvey& survey, const TrajectorySpec& spec, FlightProgr
   options_.voxel = std::clamp(*radii.begin() / kVoxelsPerRadius, kFinestVoxel, kCoarsestVoxel);
   options_.voxel = std::min(options_.voxel, *radii.begin());
   options_.rolling_radius = outside_radius_for(outside_radius(spec), *radii.rbegin());
+  coarsest_ = *radii.begin() / kLeastPerRadius;
+}
+
+// A large pile has voxels as large as the memory asks for, where these still tell where the sphere fits.
+void PileSpace::fit_voxel() const {
+  if (fitted_) return;
+  fitted_ = true;
+  const double wanted = options_.voxel, fitting = survey_.fitting_voxel(options_);
+  if (fitting <= wanted || fitting > coarsest_) return;
+  options_.voxel = fitting;
+  print_err("note: the free space of this pile is found in voxels of %.3g m, because those of %.3g m would take more than %.0f GiB of "
+            "memory\n", fitting, wanted, options_.memory_limit / (1 << 30));
 }
 
 const VoidMap& PileSpace::map() const {
+  fit_voxel();
   return survey_.find_voids(options_, robots_, [this](double done) {
     if (progress_) progress_(done, "free space");
     return true;

@@ -128,27 +128,32 @@ VoidGrids plan_grids(const Solids& solids, const VoidSpaceOptions& options) {
   return grids;
 }
 
-void check_memory(const Solids& solids, const VoidSpaceOptions& options) {
-  const auto fits = [&](const VoidSpaceOptions& o) {
-    return estimate(solids, o) <= o.memory_limit && count_cells(plan_grids(solids, o).map) <= kMostCells;
-  };
-  if (fits(options)) return;
-  const double need = estimate(solids, options);
+double fitting_voxel(const Solids& solids, const VoidSpaceOptions& options) {
   VoidSpaceOptions coarser = options;
-  while (!fits(coarser) && coarser.voxel < 10) coarser.voxel *= 1.05;
+  const auto fits = [&] {
+    return estimate(solids, coarser) <= coarser.memory_limit && count_cells(plan_grids(solids, coarser).map) <= kMostCells;
+  };
+  while (!fits() && coarser.voxel < 10) coarser.voxel *= 1.05;
+  return coarser.voxel;
+}
+
+void check_memory(const Solids& solids, const VoidSpaceOptions& options) {
+  const double fitting = fitting_voxel(solids, options);
+  if (fitting <= options.voxel) return;
+  const double need = estimate(solids, options);
   Diagnostic d;
   d.key = "voxel";
   if (need <= options.memory_limit) {
     d.message = "too small for this pile: its map has more cells than 32 bits number";
     d.expected = "at most 4,294,967,294 cells";
     d.found = "voxels of " + format(options.voxel, "m");
-    d.hint = "use voxels of " + format(coarser.voxel, "m");
+    d.hint = "use voxels of " + format(fitting, "m");
     throw InputError(d);
   }
   d.message = "too small for the memory: about " + format(need / (1 << 30), "GiB") + " are needed";
   d.expected = "at most " + format(options.memory_limit / (1 << 30), "GiB");
   d.found = "voxels of " + format(options.voxel, "m");
-  d.hint = "use voxels of " + format(coarser.voxel, "m") + " or raise the limit";
+  d.hint = "use voxels of " + format(fitting, "m") + " or raise the limit";
   throw InputError(d);
 }
 

@@ -15,6 +15,9 @@ struct VoidGrids {
 
 VoidGrids plan_grids(const Solids& solids, const VoidSpaceOptions& options);
 
+// As find_fitting_voxel() has it.
+double fitting_voxel(const Solids& solids, const VoidSpaceOptions& options);
+
 // Throws InputError, with a voxel size that fits, where the map takes more than the limit.
 void check_memory(const Solids& solids, const VoidSpaceOptions& options);
 

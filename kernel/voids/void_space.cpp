@@ -196,6 +196,10 @@ double VoidSpace::covered_volume() const {
   return double(covered) * cell_volume();
 }
 
+double find_fitting_voxel(const PileState& pile, const std::vector<const TriangleMesh*>& meshes, const VoidSpaceOptions& options) {
+  return fitting_voxel(place_solids(pile, meshes), options);
+}
+
 VoidSpace calc_void_space(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
                           const VoidSpaceOptions& options, const VoidProgress& progress) {
   options.validate();

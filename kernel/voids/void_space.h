@@ -66,6 +66,10 @@ struct VoidSpace {
 // done: 0 to 1. Return false to stop; RunError is thrown then.
 using VoidProgress = std::function<bool(double done)>;
 
+// The smallest voxel, not below that of the options, whose map takes no more than the memory limit. meshes: by type index, at
+// scale 1. unit: m
+double find_fitting_voxel(const PileState& pile, const std::vector<const TriangleMesh*>& meshes, const VoidSpaceOptions& options);
+
 // meshes: by type index, at scale 1. Throws InputError when the memory limit is too small; the error states a voxel
 // size that fits.
 VoidSpace calc_void_space(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,

@@ -41,8 +41,8 @@ class SurfacePoints {
   // ray: empty: of a pinhole.
   void add(const Frame& frame, const PixelRay& ray) {
     const Intrinsics& k = frame.intrinsics;
-    const Pose world_from_optical = frame.world_from_camera * camera_from_optical;
-    for (int v = 0; v < k.height; v += kStride)
+    for (int v = 0; v < k.height; v += kStride) {
+      const Pose world_from_optical = frame.world_from_optical(v);
       for (int u = 0; u < k.width; u += kStride) {
         const std::size_t pixel = std::size_t(v) * std::size_t(k.width) + std::size_t(u);
         const float depth = frame.depth[pixel];
@@ -51,6 +51,7 @@ class SurfacePoints {
         if (!along || !(along->z > 0)) continue;
         add_point(world_from_optical * (*along * (double(depth) / along->z)), &frame.rgb[3 * pixel]);
       }
+    }
   }
 
   std::string ply() const {

@@ -121,6 +121,7 @@ class SimplemapRecorder : public Recorder {
         options_.recording.cameras.front().channels.measured_depth ? frame.measured_depth : frame.depth;
     const int step = std::max(1, k.width / options_.points_across);
     for (int v = step / 2; v < k.height; v += step) {
+      const Pose body_from_optical = frame.row_poses.empty() ? camera_from_optical : frame.world_from_camera.inverse() * frame.world_from_optical(v);
       for (int u = step / 2; u < k.width; u += step) {
         const std::size_t i = static_cast<std::size_t>(v) * static_cast<std::size_t>(k.width) +
                               static_cast<std::size_t>(u);
@@ -128,7 +129,7 @@ class SimplemapRecorder : public Recorder {
         if (!(z > 0) || !std::isfinite(z)) continue;
         const std::optional<Vec3> ray = ray_through(k, u, v);
         if (!ray) continue;
-        const Vec3 p = camera_from_optical * (*ray * (z / ray->z));
+        const Vec3 p = body_from_optical * (*ray * (z / ray->z));
         scan.points3D_x.push_back(static_cast<float>(p.x));
         scan.points3D_y.push_back(static_cast<float>(p.y));
         scan.points3D_z.push_back(static_cast<float>(p.z));

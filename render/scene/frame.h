@@ -78,6 +78,13 @@ struct Frame {
   std::map<std::string, ImageValues, std::less<>> truth;
   std::vector<Event> events;            // since the previous frame, in order of stamp, row, column
   double exposure_s = 0;                // exposure time; 0: not modelled
+  // Of each row of pixels, world from optical frame, by which its depth counts: of a rolling shutter. Empty: all as world_from_camera,
+  // or a recording does not have them.
+  std::vector<Pose> row_poses;
+
+  Pose world_from_optical(int row) const {
+    return row_poses.empty() ? world_from_camera * camera_from_optical : row_poses[std::size_t(row)];
+  }
 
   // The values of a stream of ground truth; empty if the frame has none.
   template <typename T>

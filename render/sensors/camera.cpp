@@ -55,7 +55,7 @@ struct Camera::State {
   struct Watched {  // the last image of the event camera
     ViewRays view;
     std::vector<float> distances;
-    MomentNearby now, goal;  // of the image, and the last one before the next
+    std::vector<MomentNearby> way;  // from the image to the frame that comes next, see longest_way()
   } watched;
 
   Pose pose_at(std::int64_t stamp_ns, std::int64_t frame_ns, const Pose& at_frame) const;
@@ -66,7 +66,8 @@ struct Camera::State {
   ViewRays right_of(ViewRays view) const;
 
   RenderedView open_view(int index);
-  MomentNearby moment_at(int index, double seconds_off, RenderedView& view) const;
+  std::vector<MomentNearby> way_between(std::int64_t from, std::int64_t to, std::int64_t frame_ns, const Pose& at_frame,
+                                        RenderedView& view) const;
   Frame take_ideal(int index);
   Frame take_exposed(int index);
   ExposureSettings expose(int index, RenderedView& view);
@@ -187,18 +188,21 @@ Frame Camera::State::take_ideal(int index) {
   return frame;
 }
 
-// Where camera and surfaces of the frame's own view are then.
-MomentNearby Camera::State::moment_at(int index, double seconds_off, RenderedView& view) const {
-  const ViewRays then = view_at(index, seconds_off);
-  return {then.world_from_camera, view.shifts(then.stamp_ns)};
+// Where the camera and the surfaces of a view are on the way. at_frame: the pose of a frame at its stamp.
+std::vector<MomentNearby> Camera::State::way_between(std::int64_t from, std::int64_t to, std::int64_t frame_ns, const Pose& at_frame,
+                                                     RenderedView& view) const {
+  std::vector<MomentNearby> out;
+  for (const std::int64_t stamp : cut_way(flight, from, to))
+    out.push_back({pose_at(stamp, frame_ns, at_frame), view.shifts(stamp)});
+  return out;
 }
 
 // One more than the pixels of motion, and odd, so that the middle one is the frame's own instant.
 int Camera::State::count_samples(int index, RenderedView& view, const ExposureSettings& settings) const {
   if (!spec.shutter.motion_blur) return 1;
-  const double half = 0.5 * settings.time;
-  const double motion = longest_motion(view.rays(), view.distances(), moment_at(index, -half, view),
-                                       moment_at(index, half, view));
+  const std::int64_t stamp = flight.stamps_ns[std::size_t(index)], half = std::llround(0.5 * settings.time * 1e9);
+  const double motion = longest_way(view.rays(), view.distances(),
+                                    way_between(stamp - half, stamp + half, stamp, flight.world_from_camera[std::size_t(index)], view));
   if (motion < kSharp) return 1;
   const int wanted = int(std::min(std::ceil(motion), 1000.0)) + 1;
   const int most = spec.shutter.most_samples - (spec.shutter.most_samples % 2 ? 0 : 1);
@@ -276,6 +280,7 @@ Frame Camera::State::take_exposed(int index) {
   frame.stamp_ns = view.rays().stamp_ns;
   frame.intrinsics = spec.intrinsics;
   frame.world_from_camera = view.rays().world_from_camera;
+  frame.row_poses = view.rays().row_poses;
   frame.exposure_s = settings.time;
   view.make_truth(spec.channels);
   for (const ImageStream* stream : spec.channels) frame.truth[stream->name] = view.truth(*stream);
@@ -307,11 +312,13 @@ void Camera::State::watch(int index, Frame& frame) {
     const std::size_t next = std::size_t(index) + (stamp == end ? 1 : 0);
     const std::size_t goal = std::min(next, flight.stamps_ns.size() - 1);
     RenderedView seen = renderer.view(view);
-    std::vector<Vec3f> shifts = seen.shifts(flight.stamps_ns[goal]);
+    std::vector<MomentNearby> way{{view.world_from_camera, {}}, {flight.world_from_camera[goal], seen.shifts(flight.stamps_ns[goal])}};
+    if (flight.stamps_ns[goal] > stamp)
+      way = way_between(stamp, flight.stamps_ns[goal], flight.stamps_ns[goal], flight.world_from_camera[goal], seen);
+    way.front() = {view.world_from_camera, {}};
     LinearFrame image = std::move(seen).into_linear_frame();
     events->see(stamp, luminance_of(image), frame.events);
-    return Watched{view, std::move(image.distance), {view.world_from_camera, {}},
-                   {flight.world_from_camera[goal], std::move(shifts)}};
+    return Watched{view, std::move(image.distance), std::move(way)};
   };
   if (index == 0) {
     watched = look(end);
@@ -319,11 +326,9 @@ void Camera::State::watch(int index, Frame& frame) {
   }
   // From the depths of the last look: how many parts the rest of the way is to be cut into.
   for (int left = kMostEventImages; now < end; --left) {
-    watched.goal.world_from_camera = flight.world_from_camera[std::size_t(index)];
-    const double motion =
-        longest_motion(watched.view, watched.distances, watched.now, watched.goal);
-    const double parts =
-        left > 0 ? std::max(1.0, std::ceil(motion / spec.event_camera.most_motion)) : 1;
+    watched.way.back().world_from_camera = flight.world_from_camera[std::size_t(index)];
+    const double motion = longest_way(watched.view, watched.distances, watched.way);
+    const double parts = std::clamp(std::ceil(motion / spec.event_camera.most_motion), 1.0, double(std::max(left, 1)));
     now = std::min(end, now + std::int64_t(std::ceil(double(end - now) / parts)));
     watched = look(now);
   }

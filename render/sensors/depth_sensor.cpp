@@ -144,6 +144,8 @@ float DepthSensor::measure_disparity(const DepthView& view, int u, int v) const 
   const std::size_t i = at(view, u, v);
   const NoiseField dice(spec_.seed, "depth/dice", std::uint64_t(view.frame));
   const NoiseField noise(spec_.seed, "depth/noise", std::uint64_t(view.frame));
+  // Without noise, what is more likely.
+  const auto happens = [&](double share, std::size_t die) { return s.noise ? dice.uniform(die) < share : share > 0.5; };
   const double distance = double(view.distances[i]), cosine = view.rays.direction(u, v).z;
   if (cosine <= 0) return kNone;
   const Returns returns = trace_air(view, u, v, distance);
@@ -151,14 +153,14 @@ float DepthSensor::measure_disparity(const DepthView& view, int u, int v) const 
                                           : (returns.air > 0 ? 1e9 : 0);
   double z = distance * cosine, growth = 1 + veil, angle = 0;
   const double lost = 1.5 * (veil / (1 + veil) - 1.0 / 3);
-  if (dice.uniform(i * 2) < lost) {
+  if (happens(lost, i * 2)) {
     if (returns.middle_half > kCompact * returns.middle) return kNone;
     z = returns.middle * cosine, growth = 1;
   } else {
     if (std::isnan(distance) || !view.projected[i]) return kNone;
     angle = quick::acos(std::min(1.0, cosine_at(view, u, v)));
     if (angle > kWidestAngle) return kNone;
-    if (dice.uniform(i * 2 + 1) < 2 * other_surface_share(view, u, v)) return kNone;
+    if (happens(2 * other_surface_share(view, u, v), i * 2 + 1)) return kNone;
   }
   const double focal_baseline = view.rays.intrinsics.fx * 640 / view.rays.intrinsics.width *
                                 s.baseline;

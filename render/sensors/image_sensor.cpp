@@ -29,8 +29,8 @@ ImageSensor::ImageSensor(const CameraSpec& spec, const LensDirections& direction
     : spec_(spec), most_((1 << spec.sensor.bits) - 1), fall_off_(directions.size()) {
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const Vec3f& d = directions[i];
-    const double cosine = std::max(0.0, double(d.z));
-    fall_off_[i] = d == Vec3f() ? 0.0f : float(quick::pow(cosine, 4 * spec.sensor.vignette));
+    const double cosine = std::max(0.0, double(d.z)), exponent = 4 * spec.sensor.vignette;
+    fall_off_[i] = d == Vec3f() ? 0.0f : exponent > 0 ? float(quick::pow(cosine, exponent)) : 1.0f;  // behind the lens, too
   }
   for (int count = 0; count <= most_; ++count) {
     const double value = respond(double(count) / most_, spec.sensor);

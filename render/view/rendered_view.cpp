@@ -165,6 +165,7 @@ Frame RenderedView::into_frame(int index, const StreamSet& streams) && {
   frame.stamp_ns = s.rays.stamp_ns;
   frame.intrinsics = s.rays.intrinsics;
   frame.world_from_camera = s.rays.world_from_camera;
+  frame.row_poses = s.rays.row_poses;
   frame.rgb = std::move(s.colour->rgb);
   frame.depth = s.surfaces->take_planar_depth();
   for (const ImageStream* stream : streams)

@@ -237,7 +237,7 @@ void add_depth_sensor(Schema& k, DepthSensorSpec& d) {
   k.value("depth_sensor.least_amplitude", d.least_amplitude,
           "Time of flight: fewer electrons give no return.")
       .between(0, 1e9);
-  k.value("depth_sensor.step", d.step, "Time of flight: resolution of the range; 0: not rounded.")
+  k.value("depth_sensor.step", d.step, "Time of flight: resolution of the depth, which is planar; 0: not rounded.")
       .between(0, 1)
       .unit("m");
 }
@@ -260,7 +260,8 @@ void add_event_camera(Schema& k, EventCameraSpec& e) {
       .between(0, 1000)
       .unit("Hz");
   k.value("event_camera.most_motion", e.most_motion,
-          "Largest motion between two rendered images. A smaller value gives more exact times and takes longer.")
+          "Largest motion between two rendered images, of which there are at most 1000 from one frame to the next. A smaller value "
+          "gives more exact times and takes longer.")
       .between(0.05, 100)
       .unit("pixel");
   k.value("event_camera.dark", e.dark, "Luminance added before the logarithm.")
@@ -271,7 +272,7 @@ void add_event_camera(Schema& k, EventCameraSpec& e) {
 void add_camera_with(Schema& k, const std::string& at, CameraScenario& c) {
   add_camera(k, at, c);
   const auto group = [&](const char* name, const char* doc) { k.group(at + name, doc); };
-  group("lens", "The lens. Depth and channels are exact for the ray of each pixel.");
+  group("lens", "The lens. Depth and channels are exact for the ray of each pixel. Depth is planar: NaN where a ray goes sideways or back, more than 90 degrees off the axis.");
   add_lens(k, at, c.lens);
   group("shutter", "The stamp of a frame is the middle of its exposure.");
   add_shutter(k, at, c.shutter);

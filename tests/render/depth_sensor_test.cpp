@@ -46,6 +46,23 @@ TEST(StructuredLight, HasTheResolutionOfKhoshelhamAndElberink) {
   EXPECT_GT(steps, 5);
 }
 
+// What drops out at an edge is the same in every frame without noise, and what is more likely.
+TEST(StructuredLight, HasNoDiceWithoutNoise) {
+  Plane plane(64, 16, 586, 2, 0);
+  for (std::size_t i = 0; i < plane.distances.size(); ++i)
+    if (i % 64 >= 32) plane.distances[i] *= 1.5f;
+  CameraSpec spec = kinect();
+  spec.depth_sensor.noise = false;
+  const DepthSensor quiet(spec), noisy(kinect());
+  const auto missing = [&](const DepthSensor& sensor, int frame) {
+    std::vector<bool> out;
+    for (const float z : sensor.measure(plane.view(frame))) out.push_back(std::isnan(z));
+    return out;
+  };
+  EXPECT_EQ(missing(quiet, 0), missing(quiet, 1));
+  EXPECT_NE(missing(noisy, 0), missing(noisy, 1));
+}
+
 // Nguyen, Izadi and Lovell 2012, at an angle of 60 degrees and 1 m.
 TEST(StructuredLight, IsNoisierOnSlantedFaces) {
   const DepthSensor sensor(kinect());

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <vector>
 
+#include "kernel/base/portable_math.h"
 #include "render/devices/software/software_device.h"
 #include "render/sensors/camera.h"
 #include "tests/render/cached_options.h"
@@ -105,9 +108,7 @@ TEST(EventPixels, HaveNoiseAtTheStatedRateAndThresholdsOfTheStatedSpread) {
   EXPECT_NEAR(std::sqrt(squares / n - mean * mean), 0.03, 0.001);
 }
 
-// A camera that moves sideways past a bright edge: where the edge passed, and only there, as many
-// events as its contrast has thresholds, at the time when it passed.
-TEST(EventCamera, ReportsAMovingEdge) {
+Scene edge_scene() {
   Scene scene;
   scene.ground = false;
   scene.lamp.on = false;
@@ -115,6 +116,49 @@ TEST(EventCamera, ReportsAMovingEdge) {
   scene.light.rpy_deg = {0, 30, 180};
   scene.meshes.push_back(share(make_box({1, 20, 40}, "plaster")));
   scene.instances.push_back({0, 1, {{}, {4.5, 10, 0}}, 5});
+  return scene;
+}
+
+std::size_t count_events(Renderer& renderer, const std::function<Pose(double)>& pose_at, const std::vector<double>& times) {
+  CameraSpec spec;
+  spec.intrinsics = pinhole(64, 16, 100);
+  spec.event_camera = quiet();
+  spec.event_camera.most_motion = 0.5;
+  Flight flight;
+  flight.pose_at = [&](std::int64_t ns) { return pose_at(double(ns) * 1e-9); };
+  for (const double t : times) {
+    flight.stamps_ns.push_back(std::llround(t * 1e9));
+    flight.world_from_camera.push_back(flight.pose_at(flight.stamps_ns.back()));
+  }
+  Camera camera(renderer, spec, flight);
+  std::size_t count = 0;
+  for (int i = 0; i < int(times.size()); ++i) count += camera.take(i).events.size();
+  return count;
+}
+
+// How many events there are does not depend on how many frames there are: also where the camera comes back to where it was, or
+// turns away from all that it saw.
+TEST(EventCamera, SeesAllBetweenFramesThatAreFarApart) {
+  const Scene scene = edge_scene();
+  SoftwareDevice device;
+  RenderOptions options = cached_options();
+  options.bake = false, options.shadow_size = 64, options.texture_size = 16;
+  Renderer renderer(device, scene, options);
+  const auto back = [](double t) { return Pose{{}, {0, 0.2 * std::sin(portable::kPi * t) - 0.1, 0}}; };
+  const auto turns = [](double t) { return Pose{Quat{std::cos(0.75 - 1.2 * t), 0, 0, std::sin(0.75 - 1.2 * t)}, {0, 0, 0}}; };
+  const std::vector<double> many{0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1}, two{0, 1};
+  const std::size_t there = count_events(renderer, back, many), once = count_events(renderer, back, two);
+  EXPECT_GT(there, 100u);
+  EXPECT_NEAR(double(once) / double(there), 1, 0.1);
+  const std::size_t turned = count_events(renderer, turns, many), at_once = count_events(renderer, turns, two);
+  EXPECT_GT(turned, 100u);
+  EXPECT_NEAR(double(at_once) / double(turned), 1, 0.1);
+}
+
+// A camera that moves sideways past a bright edge: where the edge passed, and only there, as many
+// events as its contrast has thresholds, at the time when it passed.
+TEST(EventCamera, ReportsAMovingEdge) {
+  const Scene scene = edge_scene();
   SoftwareDevice device;
   RenderOptions options = cached_options();
   options.bake = false, options.shadow_size = 64, options.texture_size = 16;

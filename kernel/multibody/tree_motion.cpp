@@ -144,7 +144,7 @@ void TreeMotion::carry_speeds() {
     state_.u[k] += 0.5 * step_ * (first_[k] + second_[k]);
   }
   calc_motions(*tree_, end_, state_.u, motions_);
-  conserve(before, before.energy + calc_missed_work(), true);
+  conserve(before, before.energy + calc_missed_work(), true, turns_far());
 }
 
 // Gravity acted on the speeds at the start's position throughout: what it does to where the links

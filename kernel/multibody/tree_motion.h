@@ -97,7 +97,8 @@ class TreeMotion {
   std::vector<double> normalized_coordinates(std::vector<double> q) const;
   void carry_speeds();
   double calc_missed_work() const;
-  void conserve(const Sums& wanted, double energy, bool gain);
+  void conserve(const Sums& wanted, double energy, bool gain, bool coarse = false);
+  bool turns_far() const;
   Spatial calc_rigid_motion(const Mat3& inverse_inertia, const Vec3& centre, const Vec3& linear,
                             const Vec3& angular) const;
   void move_joints(const std::vector<double>& displacement);

@@ -46,6 +46,7 @@ BuildingCollapse::BuildingCollapse(World& world, const Pile& pile, const SettleO
   collapse.gravity = options.gravity;
   collapse.step = options.step;
   collapse.continuity = building.continuity;
+  collapse.shake = building.cause.shake;
   collapse_ = std::make_unique<Collapse>(world, damaged, pile.building_first_type, collapse, settled);
   if (building.cause.blast > 0) collapse_->blast(building.cause.blast_at, building.cause.blast);
   find_footings(damaged);

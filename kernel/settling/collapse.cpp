@@ -1,5 +1,6 @@
 #include "kernel/settling/collapse.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "kernel/base/inertia.h"
@@ -47,6 +48,9 @@ namespace {
 
 // Changes of a load below this share of a mean piece's weight do not count as changes. unit: 1
 constexpr double kSameLoad = 0.3;
+// Where the ground shakes so weakly that this would hide all of it: the same as a share of what the strongest shake does to the
+// heaviest piece. unit: 1
+constexpr double kSameShake = 0.25;
 
 }  // namespace
 
@@ -93,7 +97,12 @@ std::vector<PieceLoad> Collapse::Impl::calc_loads(std::int32_t lead, const Part&
 bool Collapse::Impl::is_news(const Part& part, const std::vector<PieceLoad>& loads) const {
   const BondGroup& group = part.stress->group();
   if (part.solved.empty() || (sinks && group.anchored)) return true;
-  const double most = kSameLoad * part.mass * options.gravity / double(group.pieces.size());
+  double most = kSameLoad * part.mass * options.gravity / double(group.pieces.size());
+  if (options.shake > 0) {
+    double heaviest = 0;
+    for (const std::int32_t i : group.pieces) heaviest = std::max(heaviest, structure.pieces[i].mass);
+    if (options.shake * heaviest <= most) most = kSameShake * options.shake * heaviest;
+  }
   for (std::size_t i = 0; i < group.pieces.size(); ++i) {
     if (norm(loads[group.pieces[i]].force - part.solved[i].force) > most) return true;
   }

@@ -24,6 +24,7 @@ struct CollapseOptions {
   double step = 1.0 / 60;      // of the world; unit: s
   double overshoot = 0.5;      // of a sudden change of load; 1: undamped; unit: 1; range: 0 to 1
   double continuity = 0;       // see BuildingSpec::continuity; unit: 1; range: 0 to 1
+  double shake = 0;            // the largest acceleration of the ground that will come; unit: m/s2
 };
 
 // A body that is a spring before a mass: it pushes with a force that does not change while it lasts.

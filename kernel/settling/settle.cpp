@@ -78,8 +78,8 @@ class Settling {
   }
 
   bool finish_placed() {
-    const bool movable = pile_.building.given() || std::any_of(pile_.placed.begin(), pile_.placed.end(),
-                                     [](const Placement& placement) { return !placement.fixed; });
+    bool movable = pile_.building.given();
+    for (int i = 0; i < world_.size() && !movable; ++i) movable = world_.mass(i) > 0;  // links of a fixed root, too
     if (!movable) return true;
     if (pile_.layers.empty()) return verify_rest();
     return run_to_rest(pile_.building.given() ? options_.final_time_limit : options_.layer_time_limit);

@@ -87,6 +87,7 @@ void TreeContacts::add_motors(std::int32_t tree) {
 
 // The motor's law at the substep's end, where it will have turned by h u more:
 //   impulse = h (k (position - q - h u) + c (speed - u) + torque) = wanted - resistance u
+// On its way to a position it neither pushes beyond its speed limit nor gives way faster, as far as its effort goes.
 void TreeContacts::solve_motor(Item& item, View& view) {
   const TreeMotion& m = motion(item.sides[1].tree);
   const TreeLink& link = m.tree().links[std::size_t(item.source)];
@@ -95,15 +96,15 @@ void TreeContacts::solve_motor(Item& item, View& view) {
   if (row.mass == 0) return;
   const double q = m.q()[std::size_t(link.first_q)], h = substep_;
   const double resistance = h * (motor.damping + h * motor.stiffness);
-  double wanted = h * (motor.stiffness * (motor.position - q) + motor.damping * motor.speed);
+  const double wanted = h * (motor.stiffness * (motor.position - q) + motor.damping * motor.speed + motor.torque);
+  const double speed = row.relative<2>(view);
+  const double left = wanted - resistance * speed - row.impulse;
+  double next = row.impulse + left / (1 + resistance / row.mass);
   if (motor.stiffness > 0 && motor.speed_limit > 0) {
-    const double most = resistance * motor.speed_limit;
-    wanted = std::clamp(wanted, -most, most);
+    next = std::clamp(next, row.impulse + (-motor.speed_limit - speed) * row.mass,
+                      row.impulse + (motor.speed_limit - speed) * row.mass);
   }
-  wanted += h * motor.torque;
-  const double left = wanted - resistance * row.relative<2>(view) - row.impulse;
-  const double next = std::clamp(row.impulse + left / (1 + resistance / row.mass), -item.friction,
-                                 item.friction);
+  next = std::clamp(next, -item.friction, item.friction);
   row.apply<2>(next - row.impulse, view);
   row.impulse = next;
 }

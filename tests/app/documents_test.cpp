@@ -225,6 +225,15 @@ INSTANTIATE_TEST_SUITE_P(All, NightlyDocuments, ::testing::ValuesIn(kRun));
 
 // No document with something to run is left out above.
 // What other platforms were compared with is what this kernel gives.
+TEST(Documents, NoneHasTheMarksOfAMergeThatWasNotMended) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot + "/docs")) {
+    if (entry.path().extension() != ".md") continue;
+    std::istringstream lines(read_file(entry.path()));
+    for (std::string line; std::getline(lines, line);)
+      for (const char* mark : {"<<<<<<< ", ">>>>>>> "}) EXPECT_NE(line.rfind(mark, 0), 0u) << entry.path() << ": " << line;
+  }
+}
+
 TEST(Documents, ThePlatformsTableHasTheGoldenHashes) {
   const std::string page = read_file(RUBBLE_SOURCE_DIR "/docs/development/platforms.md");
   std::istringstream golden(read_file(RUBBLE_SOURCE_DIR "/tests/golden/kernel.txt"));

@@ -46,6 +46,21 @@ TEST(ArticulatedPile, AChainOfSlabsComesToRest) {
   for (int i = first; i < first + 4; ++i) EXPECT_TRUE(world.is_awake(i));
 }
 
+// An assembly with an immovable root is all there is: its other links fall until their joints hold them.
+TEST(ArticulatedPile, LinksOfAFixedRootFallWithNothingElseThere) {
+  PileSpec spec = testing::small_pile(62, 0, 0);
+  spec.assemblies = testing::assemblies();
+  spec.placed = {at(PieceKind::assembly(0), {0, 0, 3}, {}, true).placement};
+  SettleOptions options;
+  options.final_time_limit = 2;
+  const PileState state = settle_pile(generate_pile(spec), options);
+  EXPECT_GT(state.steps, 0);
+  double moved = 0;
+  const double height = state.pieces.front().world_from_body.translation.z;
+  for (const PieceState& piece : state.pieces) moved = std::max(moved, height - piece.world_from_body.translation.z);
+  EXPECT_GT(moved, 0.05);
+}
+
 PileSpec mixed_pile(std::uint64_t seed) {
   PileSpec spec = testing::small_pile(seed, 2, 40);
   spec.assemblies = testing::assemblies();

@@ -255,6 +255,26 @@ TEST(Collapse, AVehicleKnocksOutWhatItIsStrongerThanAndDrivesItNoFasterThanItsel
   }
 }
 
+// A shake that gives no piece as much as the least change of load that is looked at elsewhere still counts, or a weak quake would do
+// nothing to the weakest house.
+TEST(BuildingCollapse, AWeakShakeBreaksAWeakHouse) {
+  for (const double weakness : {0.002, 1.0}) {
+    BuildingSpec b = small_building();
+    b.cause.weak_storey = 0, b.cause.weakness = weakness;
+    b.cause.shake = 1.2, b.cause.accelerogram.assign(60, 1.0), b.cause.accelerogram_step = 0.02;
+    const Pile pile = pile_of(b);
+    World world(pile.types, calc_world_options({}));
+    BuildingCollapse collapse(world, pile, {});
+    const int before = collapse.report().broken;
+    for (int step = 0; step < 60; ++step) {
+      collapse.before_step();
+      world.step();
+      collapse.after_step();
+    }
+    EXPECT_EQ(collapse.report().broken > before, weakness < 1) << weakness;
+  }
+}
+
 TEST(GroundMotion, ReadsAnAccelerogramBetweenItsSamples) {
   CollapseCause cause;
   cause.shake = 4;

@@ -1,6 +1,7 @@
 // Motors on trees against closed forms.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernel/base/error.h"
@@ -116,6 +117,27 @@ TEST(RobotMotor, AVelocityIsReachedAndLimited) {
   world.robots().set_command(robot, ask(MotorMode::velocity, 9));
   run(world, 1);
   EXPECT_NEAR(world.robots().state(robot).joints[0].speed, 4, 1e-3);
+}
+
+// However low its limit of speed, a position motor has all of its effort against a load: it lifts at that speed, and what is too
+// heavy sinks no faster than its effort allows.
+TEST(RobotMotor, ALowSpeedLimitTakesNothingOfTheEffort) {
+  for (const double speed : {0.1, 0.2, 0.5}) {
+    World world = make_world(kG);
+    const double stiffness = 12 / 0.07;
+    const int robot = world.robots().add(make_arm({12, speed, stiffness, 0.05 * stiffness}), {{}, {0, 0, 0.001}});
+    world.robots().set_command(robot, ask(MotorMode::position, -1));  // up: the axis is Y
+    run(world, 0.5 / speed);
+    double most = 0;
+    for (int i = 0; i < 60; ++i) {
+      world.step();
+      most = std::max(most, std::abs(world.robots().state(robot).joints[0].speed));
+    }
+    EXPECT_NEAR(most, speed, 0.02 * speed);
+    EXPECT_NEAR(world.robots().state(robot).joints[0].position, -0.5 - speed * 60 * kStep, 0.06) << speed;
+    run(world, 1 / speed);
+    EXPECT_NEAR(world.robots().state(robot).joints[0].position, -1, 0.04) << speed;
+  }
 }
 
 // Level, its weight pulls with m g 0.25: the spring gives way by that over its stiffness.

@@ -207,11 +207,11 @@ TEST(Pieces, AreATableWithTheirMasses) {
     EXPECT_LT(number(19), 1);
   }
   EXPECT_EQ(rows, 8);
-  const std::string labels = read_file(dataset() + "/labels.csv");
-  const Outcome recorded = run_rubble("pieces " + dataset() + " --out " + dataset() + "/labels.csv");
+  const std::string labels = read_file(dataset() + "/sensors/height.csv");
+  const Outcome recorded = run_rubble("pieces " + dataset() + " --out " + dataset() + "/sensors/height.csv");
   EXPECT_EQ(recorded.exit_code, 1);
-  EXPECT_IN("labels.csv: --out: would replace a file that a run recorded", recorded.err);
-  EXPECT_EQ(read_file(dataset() + "/labels.csv"), labels);
+  EXPECT_IN("height.csv: --out: would replace a file that a run recorded", recorded.err);
+  EXPECT_EQ(read_file(dataset() + "/sensors/height.csv"), labels);
   const ScratchFolder scratch;
   for (int i = 0; i < 2; ++i) EXPECT_EQ(run_rubble("pieces " + dataset() + " --out " + (scratch / "labels.csv")).exit_code, 0);
   EXPECT_EQ(read_file(scratch / "labels.csv"), table.out);

@@ -233,7 +233,7 @@ TEST(Rover, RollsAsItsWheelsTurn) {
 // A robot in free space that thrashes about and hits a box: the sums of both stay.
 TEST(Robot, RobotAndDebrisKeepTheirMomentum) {
   World world = make_robot_world({testing::box_type("box", 0.1, 0.1, 0.1)}, 1, 0);
-  const int box = world.add({testing::at(0, {-0.3, 0.12, 1})});
+  const int box = world.add({testing::at(0, {-0.3, 0.075, 1})});
   const RobotModel model = make_snake();
   const int robot = world.robots().add(model, {{}, {0, 0, 1}});
   bool touched = false;

@@ -77,7 +77,7 @@ class WantedList {
  public:
   template <typename IsWanted>
   const std::vector<std::int32_t>& find(int count, ThreadPool& pool, const IsWanted& is_wanted) {
-    constexpr int kChunk = 2048;
+    constexpr int kChunk = 2048;  // that one job looks at: far more work than to hand it out; unit: 1
     const std::size_t chunks = std::size_t((count + kChunk - 1) / kChunk);
     if (parts_.size() < chunks) parts_.resize(chunks);
     pool.run(int(chunks), 1, [&](int begin, int end) {

@@ -6,13 +6,14 @@ import numpy as np
 import flights
 import plan
 import records
+import tables
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (after the choice of the backend)
 
-SHOWN = ["dark", "lamp_5", "lamp_15", "lamp_200", "night_15"]
-COLOURS = ["#222222", "#a6761d", "#e6550d", "#fdae6b", "#3182bd"]
-ON_THE_WAY = ["dark", "lamp_15", "lamp_200", "night_15"]  # of the sheet of pictures
+SHOWN = ["dark", "lamp_15", "lamp_200", "night_15", "night_200", "smoke"]
+COLOURS = ["#222222", "#e6550d", "#fdae6b", "#3182bd", "#08519c", "#74c476"]
+ON_THE_WAY = ["dark", "lamp_15", "lamp_200", "night_15", "night_200", "smoke"]  # of the sheet of pictures
 WIDTH = 1.0  # of a bin; unit: m
 
 
@@ -33,11 +34,12 @@ PANELS = [
 def draw(found, title, path):
     figure, axes = plt.subplots(3, 1, figsize=(9, 11), sharex=True)
     titles = {r.name: r.title for r in plan.ROWS}
+    seeds = tables.common_seeds(found, SHOWN)
     for name, colour in zip(SHOWN, COLOURS):
         results = found.get((name, "colmap"))
         if not results:
             continue
-        bins = [b for r in results.values() for b in r["bins"]]
+        bins = [b for seed, r in results.items() if seed in seeds for b in r["bins"]]
         for (label, mean, log), place in zip(PANELS, axes):
             x, y = binned(bins, mean)
             place.plot(x, np.maximum(y, 0.8) if log else y, "o-", color=colour, ms=4, lw=1.6, label=titles[name])
@@ -48,7 +50,7 @@ def draw(found, title, path):
         place.axvline(0, color="#999999", lw=1)
         place.grid(alpha=0.3)
     axes[0].legend(fontsize=9)
-    axes[0].set_title("COLMAP 3.8, " + title, fontsize=10)
+    axes[0].set_title("COLMAP 3.8, %s, seeds %s" % (title, ", ".join(map(str, seeds))), fontsize=10)
     axes[-1].set_xlabel("metres into the void (0: its entrance), on the way in and on the way out")
     figure.tight_layout()
     figure.savefig(path, dpi=90)

@@ -84,17 +84,23 @@ def factor_table(found):
     return markdown(["factor", "flight", "judge", "seeds"] + HEADINGS, rows)
 
 
+def common_seeds(found, rows):
+    """Those that all of these rows have by COLMAP, as far as they have any: another seed is another ruin."""
+    return sorted(set.intersection(*[set(results) for row in rows if (results := found.get((row, "colmap")))] or [set()]))
+
+
 def depth_table(found):
-    rows = []
+    rows, inside = [], [row.name for row in plan.ROWS if "flight=inside" in row.settings]
+    seeds = common_seeds(found, inside)
     for row in plan.ROWS:
-        results = found.get((row.name, "colmap"))
-        if not results or row.name == "exterior":
+        results = {seed: r for seed, r in found.get((row.name, "colmap"), {}).items() if seed in seeds}
+        if not results or row.name not in inside:
             continue
         means = [[mean(all_bins(results), low, high) for low, high in zip(INTO, INTO[1:])]
                  for mean in (records.mean_keypoints, records.mean_matches)]
         rows.append([row.title] + ["-" if k is None else "%.0f / %s" % (k, "-" if m is None else "%.0f" % m) for k, m in zip(*means)])
     names = ["outside"] + ["%g to %g m" % pair for pair in zip(INTO[1:], INTO[2:-1])] + ["deeper than %g m" % INTO[-2]]
-    return markdown(["flight"] + names, rows)
+    return "Seeds that all flights have: %s.\n\n" % ", ".join(map(str, seeds)) + markdown(["flight"] + names, rows)
 
 
 def show(work, kept, size):

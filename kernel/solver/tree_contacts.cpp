@@ -14,7 +14,6 @@ constexpr double kLoopFraction = 0.5;
 // Items of a tree that carries what is heavier than the link under it are solved this often in a substep:
 // one sweep lets a slab of 600 kg on the frame of a door tremble for ever.
 constexpr int kLoadedSweeps = 8;
-constexpr double kImpactFall = 0.9;  // share of what a wheel carried, below which its friction is found again; unit: 1
 
 void write(const Spatial& motion, PaddedMotion& to) {
   const Vec3f v(motion.linear()), w(motion.angular());
@@ -157,9 +156,6 @@ void TreeContacts::solve_item(Item& item, double per_substep, const View& moved,
     solve_normals<sides>(item, per_substep, moved, view);
     const double before = pressed;
     pressed = sum_impulses(item);
-    // A wheel that lifts keeps no friction of what it carried.
-    const bool wheel = item.driven && item.belt[0] == 0 && item.belt[1] == 0;
-    if (wheel && pressed < before * kImpactFall) solve_driven_friction<sides>(item, item.friction * pressed, view);
     if (item.kind == Kind::stop || pressed <= before + before * double(kImpactRise)) break;
   }
   item.owed = slides ? item.owed + item.friction * pressed - limit : 0;

@@ -32,11 +32,6 @@ const PileGeometry& PileSurvey::geometry() {
   return *geometry_;
 }
 
-double PileSurvey::fitting_voxel(VoidSpaceOptions options) const {
-  options.scenery = assets_.terrain();
-  return find_fitting_voxel(pile_, assets_.finest_meshes(), options);
-}
-
 PileSurvey::Surveyed& PileSurvey::find_space(VoidSpaceOptions options, const VoidProgress& progress) {
   for (Surveyed& known : surveyed_)
     if (known.voxel == options.voxel && known.rolling_radius == options.rolling_radius) return known;

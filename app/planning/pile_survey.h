@@ -30,8 +30,6 @@ class PileSurvey {
   const AssetLibrary& assets() const { return assets_; }
   const PileState& pile() const { return pile_; }
   const PileGeometry& geometry();
-  // find_fitting_voxel() of this pile; unit: m
-  double fitting_voxel(VoidSpaceOptions options) const;
   // Free space in voxels, and the voids of robots of these radii (unit: m; each at least a voxel; none:
   // the space alone). Of `options`, threads and scenery are the survey's own. The same space serves every
   // question with the same voxel and rolling radius. progress: as find_voids(), of what is made.

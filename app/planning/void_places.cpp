@@ -94,26 +94,19 @@ PileSpace::PileSpace(PileSurvey& survey, const TrajectorySpec& spec, FlightProgr
   options_.voxel = std::clamp(*radii.begin() / kVoxelsPerRadius, kFinestVoxel, kCoarsestVoxel);
   options_.voxel = std::min(options_.voxel, *radii.begin());
   options_.rolling_radius = outside_radius_for(outside_radius(spec), *radii.rbegin());
-  coarsest_ = *radii.begin() / kLeastPerRadius;
-}
-
-// A large pile has voxels as large as the memory asks for, where these still tell where the sphere fits.
-void PileSpace::fit_voxel() const {
-  if (fitted_) return;
-  fitted_ = true;
-  const double wanted = options_.voxel, fitting = survey_.fitting_voxel(options_);
-  if (fitting <= wanted || fitting > coarsest_) return;
-  options_.voxel = fitting;
-  print_err("note: the free space of this pile is found in voxels of %.3g m, because those of %.3g m would take more than %.0f GiB of "
-            "memory\n", fitting, wanted, options_.memory_limit / (1 << 30));
+  options_.coarsest = *radii.begin() / kLeastPerRadius;  // so that they still tell where the sphere fits
 }
 
 const VoidMap& PileSpace::map() const {
-  fit_voxel();
-  return survey_.find_voids(options_, robots_, [this](double done) {
+  const VoidMap& map = survey_.find_voids(options_, robots_, [this](double done) {
     if (progress_) progress_(done, "free space");
     return true;
   });
+  if (map.space.grid.voxel > options_.voxel && !told_)
+    print_err("note: the free space of this pile is found in voxels of %.3g m, because those of %.3g m would take more than %.0f GiB of "
+              "memory\n", map.space.grid.voxel, options_.voxel, options_.memory_limit / (1 << 30));
+  told_ = true;
+  return map;
 }
 
 std::vector<ResolvedVoid> resolve_places(const PileSpace& space, TrajectorySpec& spec) {

@@ -19,13 +19,10 @@ class PileSpace {
   const VoidMap& map() const;  // robots: of the voids that the flight names, and maybe others
 
  private:
-  void fit_voxel() const;
-
   PileSurvey& survey_;
   std::vector<double> robots_;  // radii of the voids that are named; unit: m
-  mutable VoidSpaceOptions options_;
-  mutable bool fitted_ = false;
-  double coarsest_ = 0;  // voxel; unit: m
+  VoidSpaceOptions options_;
+  mutable bool told_ = false;  // that voxels are larger than asked
   FlightProgress progress_;
 };
 

@@ -10,8 +10,6 @@ namespace {
 
 // What is given back of the motion within a tree is at most this share of its energy in a step.
 constexpr double kMostGain = 0.1;
-// From this turn of a link in a step on, where a tree points at the end is not well known; unit: rad
-constexpr double kFarTurn = 0.2;
 
 Mat3 calc_inertia_about(const TreePose& pose, const Vec3& centre) {
   Mat3 inertia;
@@ -58,10 +56,10 @@ Spatial TreeMotion::calc_rigid_motion(const Mat3& inverse_inertia, const Vec3& c
 
 // Gives back what a motion without outer forces, gravity apart, has taken from the momentum, and
 // what it has taken from the energy or added to it.
-bool TreeMotion::turns_far() const {
+double TreeMotion::farthest_turn() const {
   double fastest = 0;
   for (const Spatial& motion : motions_) fastest = std::max(fastest, norm(motion.angular()));
-  return fastest * step_ > kFarTurn;
+  return fastest * step_;
 }
 
 void TreeMotion::conserve(const Sums& wanted, double energy, bool gain, bool coarse) {
@@ -78,7 +76,7 @@ void TreeMotion::conserve(const Sums& wanted, double energy, bool gain, bool coa
     const double straight = 0.5 * dot(wanted.linear, wanted.linear) / tree_->mass;
     const double turning = 0.5 * dot(wanted.angular, inverse * wanted.angular);
     shared = straight + turning;
-    if (coarse && shared > energy) {  // as it points now, its momentum would need more energy than there is
+    if (coarse && turning > 0 && shared > energy) {  // as it points now, its momentum would need more energy than there is
       const double kept = std::sqrt(std::max(0.0, energy - straight) / turning);
       for (Spatial& motion : motions_) motion -= calc_rigid_motion(inverse, centre, {}, wanted.angular * (1 - kept));
       rigid = calc_rigid_motion(inverse, centre, wanted.linear, wanted.angular * kept);

@@ -122,9 +122,7 @@ void TreeMotion::take_free_step(double h, bool fast) {
 }
 
 void TreeMotion::move_freely() {
-  double fastest = 0;
-  for (const Spatial& motion : motions_) fastest = std::max(fastest, norm(motion.angular()));
-  const double turn = fastest * step_;
+  const double turn = farthest_turn();
   const bool fast = turn > kFastTurn && !has_springs_;
   const double wanted = std::ceil(turn / (fast ? kTurnPerRungeKutta : kTurnPerSubstep));
   const int substeps = wanted >= kMaxSubsteps ? kMaxSubsteps : std::max(1, int(wanted));

@@ -9,6 +9,7 @@ namespace rubble {
 namespace {
 
 constexpr double kStopMargin = 0.02;  // a stop has a row when the joint is so near it; unit: rad, m
+constexpr double kFarTurn = 0.2;      // from this turn of a link in a step on, where a tree points at the end is not well known; unit: rad
 
 }  // namespace
 
@@ -144,7 +145,7 @@ void TreeMotion::carry_speeds() {
     state_.u[k] += 0.5 * step_ * (first_[k] + second_[k]);
   }
   calc_motions(*tree_, end_, state_.u, motions_);
-  conserve(before, before.energy + calc_missed_work(), true, turns_far());
+  conserve(before, before.energy + calc_missed_work(), true, farthest_turn() > kFarTurn);
 }
 
 // Gravity acted on the speeds at the start's position throughout: what it does to where the links

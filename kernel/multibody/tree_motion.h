@@ -97,8 +97,9 @@ class TreeMotion {
   std::vector<double> normalized_coordinates(std::vector<double> q) const;
   void carry_speeds();
   double calc_missed_work() const;
+  // coarse: where the tree points at the end is not well known: its momentum is given back as far as the energy reaches.
   void conserve(const Sums& wanted, double energy, bool gain, bool coarse = false);
-  bool turns_far() const;
+  double farthest_turn() const;  // of a link in a step; unit: rad
   Spatial calc_rigid_motion(const Mat3& inverse_inertia, const Vec3& centre, const Vec3& linear,
                             const Vec3& angular) const;
   void move_joints(const std::vector<double>& displacement);

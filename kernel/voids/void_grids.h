@@ -15,7 +15,7 @@ struct VoidGrids {
 
 VoidGrids plan_grids(const Solids& solids, const VoidSpaceOptions& options);
 
-// As find_fitting_voxel() has it.
+// The smallest voxel, not below that of the options, whose map takes no more than the memory limit; unit: m
 double fitting_voxel(const Solids& solids, const VoidSpaceOptions& options);
 
 // Throws InputError, with a voxel size that fits, where the map takes more than the limit.

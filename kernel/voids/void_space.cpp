@@ -196,14 +196,12 @@ double VoidSpace::covered_volume() const {
   return double(covered) * cell_volume();
 }
 
-double find_fitting_voxel(const PileState& pile, const std::vector<const TriangleMesh*>& meshes, const VoidSpaceOptions& options) {
-  return fitting_voxel(place_solids(pile, meshes), options);
-}
-
 VoidSpace calc_void_space(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
-                          const VoidSpaceOptions& options, const VoidProgress& progress) {
-  options.validate();
+                          const VoidSpaceOptions& asked, const VoidProgress& progress) {
+  asked.validate();
   Solids solids = place_solids(pile, meshes);
+  VoidSpaceOptions options = asked;
+  if (const double fitting = fitting_voxel(solids, asked); fitting <= asked.coarsest.value_or(asked.voxel)) options.voxel = fitting;
   check_memory(solids, options);
   const VoidGrids grids = plan_grids(solids, options);
   VoidSpace space = Builder(std::move(solids), grids, options, progress).build();

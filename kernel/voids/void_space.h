@@ -40,6 +40,9 @@ struct VoidSpaceOptions {
   // Solid types that do not extend the map: terrain. The map surrounds the other pieces.
   std::vector<int> scenery{};
   double memory_limit = 4.0 * (1 << 30);  // unit: byte
+  // Where the memory limit is too small for `voxel`, the smallest voxel that fits, up to this; nothing: refused. The grid tells which
+  // it is; unit: m
+  std::optional<double> coarsest{};
   int threads = 0;                        // 0: all processors; the result does not depend on it
 
   void validate() const;  // throws InputError naming the field
@@ -65,10 +68,6 @@ struct VoidSpace {
 
 // done: 0 to 1. Return false to stop; RunError is thrown then.
 using VoidProgress = std::function<bool(double done)>;
-
-// The smallest voxel, not below that of the options, whose map takes no more than the memory limit. meshes: by type index, at
-// scale 1. unit: m
-double find_fitting_voxel(const PileState& pile, const std::vector<const TriangleMesh*>& meshes, const VoidSpaceOptions& options);
 
 // meshes: by type index, at scale 1. Throws InputError when the memory limit is too small; the error states a voxel
 // size that fits.

@@ -200,6 +200,22 @@ TEST(Nerfstudio, PosesAreThoseOfOpenglAndPointsLieOnTheScene) {
   }
 }
 
+// Of a rolling shutter the rows have poses of their own, by which their depth is.
+TEST(Nerfstudio, PointsAreByThePosesOfRows) {
+  ScratchFolder folder;
+  Frame frame = make_full_frame(0);
+  frame.row_poses.assign(std::size_t(frame.intrinsics.height), optical_pose(0));
+  frame.world_from_camera.translation += Vec3{0.2, 0.1, -0.1};
+  const auto recorder = make_nerfstudio_recorder(folder / "nerf", test::full_recording(), {}, 1);
+  recorder->write(frame);
+  recorder->finish();
+  const std::string ply = read_text(folder / "nerf/sparse_pc.ply"), end = "end_header\n";
+  std::string_view left = std::string_view(ply).substr(ply.find(end) + end.size());
+  EXPECT_GT(left.size(), 50u * 15);
+  for (float x = 0, y = 0, z = 0; take(left, x) && take(left, y) && take(left, z); left.remove_prefix(3))
+    ASSERT_LT(test::distance_to_scene({x, y, z}), 1e-4);
+}
+
 // --- COCO ---
 
 // By the letters alone, as others unpack them.

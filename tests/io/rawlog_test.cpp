@@ -332,7 +332,14 @@ TEST(Rawlog, ActionsAndSensoryFramesTakeTurns) {
 TEST(Simplemap, Observations2mapPutsEveryPointOnTheScene) {
   ScratchFolder folder;
   const auto recorder = make_simplemap_recorder(folder / "mission.simplemap");
-  for (int i = 0; i < 8; ++i) recorder->write(make_frame(i));  // 0.1 m from one to the next
+  for (int i = 0; i < 8; ++i) {  // 0.1 m from one to the next
+    Frame frame = make_frame(i);
+    if (i == 3) {  // a rolling shutter, whose rows are not where the frame is
+      frame.row_poses.assign(std::size_t(frame.intrinsics.height), frame.world_from_optical(0));
+      frame.world_from_camera.translation.x += 0.02;
+    }
+    recorder->write(frame);
+  }
   recorder->finish();
   write_text_file(folder / "map.ini",
                   "[MappingApplication]\npointsMap_count=1\n"

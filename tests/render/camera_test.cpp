@@ -235,6 +235,22 @@ TEST(Vignette, FallsWithTheFourthPowerOfTheCosine) {
   EXPECT_NEAR(double(fallen[0]) / even[0], std::pow(std::cos(portable::kPi / 4), 4), 1e-3);
 }
 
+// A lens that sees behind itself has no fall-off there unless it is asked for.
+TEST(Vignette, OfNothingLeavesWhatIsBehindTheLens) {
+  CameraSpec spec = fixed_camera(3, 1, 1);
+  const LensDirections directions{{0, 0, 1}, {1, 0, 0}, {0.5f, 0, -0.866f}};
+  const std::vector<float> light(9, 0.1f);
+  spec.sensor.vignette = 0;
+  const ImageSensor even(spec, directions);
+  const auto counts = even.count(light, {0.01, 100}, 0, 0);
+  EXPECT_GT(counts[0], 0);
+  for (const auto count : counts) EXPECT_EQ(count, counts[0]);
+  spec.sensor.vignette = 1;
+  const auto fallen = ImageSensor(spec, directions).count(light, {0.01, 100}, 0, 0);
+  EXPECT_EQ(fallen[0], counts[0]);
+  EXPECT_EQ(fallen[fallen.size() - 1], 0);
+}
+
 TEST(Response, IsTheStandardsCurve) {
   CameraSpec spec = fixed_camera(1, 1, 1);
   spec.sensor.bits = 10;

@@ -119,18 +119,33 @@ Scene edge_scene() {
   return scene;
 }
 
-std::size_t count_events(Renderer& renderer, const std::function<Pose(double)>& pose_at, const std::vector<double>& times) {
+RenderOptions edge_options() {
+  RenderOptions options = cached_options();
+  options.bake = false, options.shadow_size = 64, options.texture_size = 16;
+  return options;
+}
+
+CameraSpec edge_camera() {
   CameraSpec spec;
   spec.intrinsics = pinhole(64, 16, 100);
   spec.event_camera = quiet();
   spec.event_camera.most_motion = 0.5;
+  return spec;
+}
+
+// times: of the frames; unit: s
+Flight fly_at(const std::vector<double>& times, const std::function<Pose(double)>& pose_at) {
   Flight flight;
-  flight.pose_at = [&](std::int64_t ns) { return pose_at(double(ns) * 1e-9); };
+  flight.pose_at = [pose_at](std::int64_t ns) { return pose_at(double(ns) * 1e-9); };
   for (const double t : times) {
     flight.stamps_ns.push_back(std::llround(t * 1e9));
     flight.world_from_camera.push_back(flight.pose_at(flight.stamps_ns.back()));
   }
-  Camera camera(renderer, spec, flight);
+  return flight;
+}
+
+std::size_t count_events(Renderer& renderer, const std::function<Pose(double)>& pose_at, const std::vector<double>& times) {
+  Camera camera(renderer, edge_camera(), fly_at(times, pose_at));
   std::size_t count = 0;
   for (int i = 0; i < int(times.size()); ++i) count += camera.take(i).events.size();
   return count;
@@ -141,9 +156,7 @@ std::size_t count_events(Renderer& renderer, const std::function<Pose(double)>& 
 TEST(EventCamera, SeesAllBetweenFramesThatAreFarApart) {
   const Scene scene = edge_scene();
   SoftwareDevice device;
-  RenderOptions options = cached_options();
-  options.bake = false, options.shadow_size = 64, options.texture_size = 16;
-  Renderer renderer(device, scene, options);
+  Renderer renderer(device, scene, edge_options());
   const auto back = [](double t) { return Pose{{}, {0, 0.2 * std::sin(portable::kPi * t) - 0.1, 0}}; };
   const auto turns = [](double t) { return Pose{Quat{std::cos(0.75 - 1.2 * t), 0, 0, std::sin(0.75 - 1.2 * t)}, {0, 0, 0}}; };
   const std::vector<double> many{0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1}, two{0, 1};
@@ -160,28 +173,17 @@ TEST(EventCamera, SeesAllBetweenFramesThatAreFarApart) {
 TEST(EventCamera, ReportsAMovingEdge) {
   const Scene scene = edge_scene();
   SoftwareDevice device;
-  RenderOptions options = cached_options();
-  options.bake = false, options.shadow_size = 64, options.texture_size = 16;
-  Renderer renderer(device, scene, options);
-  CameraSpec spec;
-  spec.intrinsics = pinhole(64, 16, 100);
-  spec.event_camera = quiet();
+  Renderer renderer(device, scene, edge_options());
+  CameraSpec spec = edge_camera();
   spec.event_camera.threshold_down = 0.2;
-  spec.event_camera.most_motion = 0.5;
-  Flight flight;
   const auto pose_at = [](double t) { return Pose{{}, {0, 2 * t - 0.1, 0}}; };
-  flight.pose_at = [&](std::int64_t ns) { return pose_at(double(ns) * 1e-9); };
-  for (const std::int64_t ns : {0, 100'000'000}) {
-    flight.stamps_ns.push_back(ns);
-    flight.world_from_camera.push_back(flight.pose_at(ns));
-  }
   const LinearFrame before = renderer.render_linear(pose_at(0), spec.intrinsics);
   const LinearFrame after = renderer.render_linear(pose_at(0.1), spec.intrinsics);
   const auto level = [](const LinearFrame& f, std::size_t i) {
     return std::log(1000 * (0.2126 * double(f.rgb[i * 3]) + 0.7152 * double(f.rgb[i * 3 + 1]) +
                             0.0722 * double(f.rgb[i * 3 + 2])));
   };
-  Camera camera(renderer, spec, flight);
+  Camera camera(renderer, spec, fly_at({0, 0.1}, pose_at));
   EXPECT_TRUE(camera.take(0).events.empty());
   const std::vector<Event> events = camera.take(1).events;
   ASSERT_FALSE(events.empty());
@@ -223,9 +225,7 @@ TEST(EventCamera, ReportsTheEdgeOfWhatMoves) {
     return std::vector<std::optional<Pose>>{Pose{{}, {4.5, 10.1 - 2e-9 * double(ns), 0}}};
   };
   SoftwareDevice device;
-  RenderOptions options = cached_options();
-  options.bake = false, options.shadow_size = 64, options.texture_size = 16;
-  Renderer renderer(device, scene, options);
+  Renderer renderer(device, scene, edge_options());
   CameraSpec spec;
   spec.intrinsics = pinhole(64, 16, 100);
   spec.event_camera = quiet();

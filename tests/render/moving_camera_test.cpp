@@ -57,6 +57,32 @@ TEST(MotionBlur, IsARampOfTheLengthOfTheMotion) {
   EXPECT_EQ(take(true, standing).rgb, take(false, standing).rgb);
 }
 
+// Nor is what comes back within the exposure sharp, nor what turns out of the image.
+TEST(MotionBlur, IsOfTheWholeWay) {
+  Scene scene = lit_wall();
+  scene.light.intensity = 3;  // for such a long exposure
+  scene.light.rpy_deg = {0, 70, 180};
+  SoftwareDevice device;
+  Renderer renderer(device, scene, plain());
+  CameraSpec spec = fixed_camera(64, 16, 100);
+  spec.exposure.time = 0.8, spec.exposure.f_number = 36, spec.shutter.most_samples = 99;
+  const auto differing = [&](const auto& pose_at) {
+    std::size_t count = 0;
+    std::vector<std::uint8_t> images[2];
+    for (const bool blur : {false, true}) {
+      spec.shutter.motion_blur = blur;
+      images[blur] = Camera(renderer, spec, fly(1, pose_at)).take(0).rgb;
+    }
+    for (std::size_t i = 0; i < images[0].size(); ++i) count += std::abs(int(images[0][i]) - int(images[1][i])) > 4;
+    return double(count) / double(images[0].size());
+  };
+  const auto back = [](double t) { return Pose{{}, {0, 0.4 * std::cos(2.5 * 3.14159265358979 * t), 0}}; };
+  const auto turns = [](double t) { return Pose{Quat{std::cos(1.25 * t), 0, 0, std::sin(1.25 * t)}, {}}; };
+  EXPECT_GT(differing(back), 0.1);
+  EXPECT_GT(differing(turns), 0.2);
+  EXPECT_EQ(differing(standing), 0);
+}
+
 // The same edge, but the wall goes to the right at 2 m/s and the camera stands.
 TEST(MotionBlur, OfWhatMovesIsARampAsWell) {
   Scene scene = lit_wall();

@@ -303,19 +303,21 @@ TEST(VoidSpace, RefusesVoxelsThatMemoryCannotHold) {
   }
 }
 
-TEST(VoidSpace, FindsTheVoxelThatFits) {
+TEST(VoidSpace, TakesTheVoxelThatFitsWhereItMay) {
   VoidScene scene;
   testing::add_room(scene, {0, 0, 0}, {4, 4, 2}, 0.1);
   VoidSpaceOptions options = options_with(0.004, 1);
   options.memory_limit = 1 << 28;
-  EXPECT_THROW(calc_void_space(scene.pile, scene.pointers(), options), InputError);
-  const double fitting = find_fitting_voxel(scene.pile, scene.pointers(), options);
-  EXPECT_GT(fitting, options.voxel);
+  for (const double coarsest : {0.004, 0.005}) {
+    options.coarsest = coarsest;
+    EXPECT_THROW(calc_void_space(scene.pile, scene.pointers(), options), InputError) << coarsest;
+  }
+  options.coarsest = 0.05;
+  const double fitting = calc_void_space(scene.pile, scene.pointers(), options).grid.voxel;
+  EXPECT_GT(fitting, 0.005);
   EXPECT_LT(fitting, 0.03);
-  options.voxel = fitting;
-  EXPECT_NO_THROW(calc_void_space(scene.pile, scene.pointers(), options));
   options.voxel = 0.1;
-  EXPECT_EQ(find_fitting_voxel(scene.pile, scene.pointers(), options), 0.1);
+  EXPECT_EQ(calc_void_space(scene.pile, scene.pointers(), options).grid.voxel, 0.1);
 }
 
 TEST(VoidSpace, NamesOptionsOutOfRange) {

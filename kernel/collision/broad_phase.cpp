@@ -40,22 +40,54 @@ int BroadPhase::add() {
   boxes_.emplace_back();
   present_.push_back(0);
   levels_.push_back(kGrids);
-  seen_.push_back(0);
   return int(boxes_.size()) - 1;
 }
 
-Aabb BroadPhase::update(int item, const Aabb& tight, const Vec3& motion) {
-  Aabb before;
-  if (present_[item]) before = boxes_[item], erase(item);
+Aabb BroadPhase::enlarge(const Aabb& tight, const Vec3& motion) {
   const Vec3 grow{kEnlarge, kEnlarge, kEnlarge};
-  boxes_[item].min = tight.min - grow + min(motion, Vec3{});
-  boxes_[item].max = tight.max + grow + max(motion, Vec3{});
+  return {tight.min - grow + min(motion, Vec3{}), tight.max + grow + max(motion, Vec3{})};
+}
+
+void BroadPhase::place(int item, const Aabb& box) {
+  remove(item);
+  boxes_[item] = box;
   insert(item);
-  return before;
+}
+
+void BroadPhase::find(int item, std::vector<std::int32_t>& found) const {
+  // What covers several cells is found in each of them. Of any world: marks of another search are never this one's.
+  thread_local std::vector<std::uint64_t> seen;
+  thread_local std::uint64_t search = 0;
+  if (seen.size() < boxes_.size()) seen.resize(boxes_.size());
+  ++search;
+  found.clear();
+  const Aabb box = boxes_[item];
+  const auto consider = [&](std::int32_t other) {
+    if (seen[other] == search) return;
+    seen[other] = search;
+    if (overlap(box, boxes_[other])) found.push_back(other);
+  };
+  seen[item] = search;
+  for (int level = 0; level < kGrids; ++level) {
+    if (counts_[level] == 0) continue;
+    const Range range = range_of(box, kCells[level]);
+    if (range.cells() < double(boxes_.size())) {
+      for_cells(grids_[level], range, [&](const Bucket& bucket) {
+        for (const std::int32_t other : bucket) consider(other);
+      });
+      continue;
+    }
+    for (std::int32_t other = 0; other < std::int32_t(boxes_.size()); ++other) {
+      if (present_[other] && levels_[other] == level) consider(other);
+    }
+  }
+  for (const std::int32_t other : boundless_) consider(other);
+  std::sort(found.begin(), found.end());
 }
 
 void BroadPhase::remove(int item) {
   if (present_[item]) erase(item);
+  boxes_[item] = {};
 }
 
 void BroadPhase::insert(int item) {
@@ -64,7 +96,7 @@ void BroadPhase::insert(int item) {
   if (level == kGrids) return boundless_.push_back(item);
   if (grids_[level].empty()) grids_[level].resize(level == 0 ? kFineBuckets : kCoarseBuckets);
   ++counts_[level];
-  for_cells(level, boxes_[item], [item](Bucket& bucket) { bucket.push_back(item); });
+  for_cells(grids_[level], range_of(boxes_[item], kCells[level]), [item](Bucket& bucket) { bucket.push_back(item); });
 }
 
 void BroadPhase::erase(int item) {
@@ -78,7 +110,7 @@ void BroadPhase::erase(int item) {
   const int level = levels_[item];
   if (level == kGrids) return drop(boundless_);
   --counts_[level];
-  for_cells(level, boxes_[item], drop);
+  for_cells(grids_[level], range_of(boxes_[item], kCells[level]), drop);
 }
 
 }  // namespace rubble

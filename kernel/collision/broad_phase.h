@@ -2,11 +2,9 @@
 // is large or fast, coarser ones. A part is in one grid, and is looked for in all.
 //
 // A part is looked up again only when it leaves its enlarged box, so resting parts cost nothing.
-// The order of the pairs depends on the order of the calls alone.
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "kernel/base/math.h"
@@ -20,40 +18,20 @@ class BroadPhase {
   // Whether an item's enlarged box still holds it.
   bool holds(int item, const Aabb& tight) const {
     const Aabb& old = boxes_[item];
-    return present_[item] && old.min.x <= tight.min.x && old.min.y <= tight.min.y &&
+    return old.min.x <= tight.min.x && old.min.y <= tight.min.y &&
            old.min.z <= tight.min.z && old.max.x >= tight.max.x && old.max.y >= tight.max.y &&
            old.max.z >= tight.max.z;
   }
-  // Puts an item where `tight` is, in a new enlarged box. `motion`: how far it will go in a few
-  // steps; the box reaches ahead. Returns the box before; empty: there was none.
-  Aabb update(int item, const Aabb& tight, const Vec3& motion);
+  // The box of an item that is in `tight`, enlarged. `motion`: how far it will go in a few steps; the box reaches ahead.
+  static Aabb enlarge(const Aabb& tight, const Vec3& motion);
+  // Puts an item in this enlarged box.
+  void place(int item, const Aabb& box);
   void remove(int item);
 
-  // Calls visit(other) for every item whose enlarged box overlaps that of `item`.
-  template <typename Visit>
-  void query(int item, Visit&& visit) {
-    ++stamp_;
-    seen_[item] = stamp_;
-    const Aabb& box = boxes_[item];
-    const auto consider = [&](std::int32_t other) {
-      if (seen_[other] == stamp_) return;
-      seen_[other] = stamp_;
-      if (overlap(box, boxes_[other])) visit(int(other));
-    };
-    for (int level = 0; level < kGrids; ++level) {
-      if (counts_[level] == 0) continue;
-      if (range_of(box, kCells[level]).cells() < double(boxes_.size())) {
-        for_cells(level, box, [&](const Bucket& bucket) {
-          for (std::int32_t other : bucket) consider(other);
-        });
-        continue;
-      }
-      for (std::int32_t other = 0; other < std::int32_t(boxes_.size()); ++other)
-        if (present_[other] && levels_[other] == level) consider(other);
-    }
-    for (std::int32_t other : boundless_) consider(other);
-  }
+  // The items whose enlarged boxes overlap that of `item`, ascending. Any number of threads may ask at a time.
+  void find(int item, std::vector<std::int32_t>& found) const;
 
+  // Enlarged; empty: the item is not there.
   const Aabb& box(int item) const { return boxes_[item]; }
   static bool overlap(const Aabb& a, const Aabb& b) {
     return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
@@ -64,7 +42,7 @@ class BroadPhase {
   template <typename Self, typename Visit>
   static void each_field(Self& self, Visit&& visit) {
     visit(self.grids_), visit(self.counts_), visit(self.boundless_), visit(self.boxes_), visit(self.present_);
-    visit(self.levels_), visit(self.seen_), visit(self.stamp_);
+    visit(self.levels_);
   }
 
  private:
@@ -80,10 +58,9 @@ class BroadPhase {
   static std::size_t hash(std::int64_t x, std::int64_t y, std::int64_t z);
   static std::uint8_t choose_level(const Aabb& box);
 
-  template <typename Visit>
-  void for_cells(int level, const Aabb& box, Visit&& visit) {
-    std::vector<Bucket>& grid = grids_[level];
-    const Range r = range_of(box, kCells[level]);
+  // Buckets: std::vector<Bucket>, const or not.
+  template <typename Buckets, typename Visit>
+  static void for_cells(Buckets& grid, const Range& r, Visit&& visit) {
     const std::size_t mask = grid.size() - 1;
     for (std::int64_t z = r.min[2]; z <= r.max[2]; ++z) {
       for (std::int64_t y = r.min[1]; y <= r.max[1]; ++y) {
@@ -99,8 +76,6 @@ class BroadPhase {
   Bucket boundless_;                    // what is in no grid
   std::vector<Aabb> boxes_;
   std::vector<std::uint8_t> present_, levels_;  // level: the item's grid; kGrids: none
-  std::vector<std::uint32_t> seen_;
-  std::uint32_t stamp_ = 0;
 };
 
 }  // namespace rubble

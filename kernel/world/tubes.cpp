@@ -174,7 +174,7 @@ void Tubes::lay_link(WorldRobot& robot, const RobotModel& model, const Tree& gro
   trees_.replace(robot.tree, tree, state);
   trees_.mirror_state(robot.tree);
   body.still_pose = body.loose_pose = body.later_pose = body.world_from_com;
-  bodies_.each_collider(body, [&](int i) { data_.broad.update(i, data_.colliders[std::size_t(i)].box, {}); });
+  bodies_.each_collider(body, [&](int i) { data_.broad.place(i, BroadPhase::enlarge(data_.colliders[std::size_t(i)].box, {})); });
   pairs_.find_first(index);
 }
 

@@ -14,7 +14,7 @@
 namespace rubble {
 
 // Changes whenever a member of the world's data is added, removed or moved.
-inline constexpr std::uint32_t kWorldSnapshotVersion = 10;
+inline constexpr std::uint32_t kWorldSnapshotVersion = 11;
 
 std::vector<std::uint8_t> encode_snapshot(const World::Snapshot& snapshot);
 

@@ -58,25 +58,50 @@ Aabb PairSelection::calc_swept_box(int collider) const {
   return box;
 }
 
-void PairSelection::find_pairs(StepPairs& step) {
-  step.list_awake(data_.bodies);
-  note_sweeps(step);
-  leaves_box_.assign(data_.colliders.size(), 0);
+// Their boxes are enlarged anew.
+void PairSelection::find_leaving(const StepPairs& step) {
+  const std::size_t count = data_.colliders.size();
+  leaves_box_.assign(count, 0);
+  box_before_.resize(count), box_after_.resize(count);
   pool_.run(int(step.awake.size()), 64, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       const Body& body = data_.bodies[step.awake[k]];
-      bodies_.each_collider(body, [&](int i) { leaves_box_[i] = !data_.broad.holds(i, calc_swept_box(i)); });
+      const Vec3 motion = Vec3(body.linear) * settings_.options.step;
+      bodies_.each_collider(body, [&](int i) {
+        const Aabb swept = calc_swept_box(i);
+        if (data_.broad.holds(i, swept)) return;
+        leaves_box_[i] = 1;
+        box_before_[i] = data_.broad.box(i);
+        box_after_[i] = BroadPhase::enlarge(swept, motion * kLookAhead);
+      });
     }
   });
-  for (std::size_t i = 0; i < leaves_box_.size(); ++i) {
-    if (!leaves_box_[i]) continue;
-    const int collider = int(i);
-    const Vec3 motion = Vec3(data_.bodies[data_.colliders[i].body].linear) * settings_.options.step;
-    const Aabb before = data_.broad.update(collider, calc_swept_box(collider), motion * kLookAhead);
-    // What the box before met is known: a pair lives as long as its boxes overlap, and what parts bodies finds their pairs.
-    data_.broad.query(collider, [&](int other) {
-      if (!BroadPhase::overlap(before, data_.broad.box(other))) pairs_.add(collider, other);
-    });
+}
+
+// Those that it meets now and did not before: a pair lives as long as its boxes overlap, and what parts bodies finds their
+// pairs. Of two that leave their boxes the later names the pair.
+void PairSelection::find_neighbours(int collider, std::vector<std::int32_t>& out) const {
+  data_.broad.find(collider, out);
+  const auto is_known = [&](std::int32_t other) {
+    if (!leaves_box_[other]) return BroadPhase::overlap(box_before_[collider], data_.broad.box(other));
+    return other > collider || BroadPhase::overlap(box_before_[collider], box_before_[other]);
+  };
+  out.erase(std::remove_if(out.begin(), out.end(), is_known), out.end());
+}
+
+void PairSelection::find_pairs(StepPairs& step) {
+  step.list_awake(data_.bodies);
+  note_sweeps(step);
+  find_leaving(step);
+  const std::vector<std::int32_t>& leaving = leaving_.find(int(leaves_box_.size()), pool_, [&](int i) { return leaves_box_[i]; });
+  for (const std::int32_t collider : leaving) data_.broad.place(collider, box_after_[collider]);
+  if (neighbours_.size() < leaving.size()) neighbours_.resize(leaving.size());
+  pool_.run(int(leaving.size()), 16, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) find_neighbours(leaving[k], neighbours_[k]);
+  });
+  for (std::size_t k = 0; k < leaving.size(); ++k) {
+    const std::int32_t collider = leaving[k];
+    for (const std::int32_t other : neighbours_[k]) pairs_.add(collider, other);
     if (data_.broad.box(collider).min.z < 0) pairs_.add(collider, kGround);
     pairs_.update_near_surfaces(collider);
   }

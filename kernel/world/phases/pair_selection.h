@@ -24,6 +24,8 @@ class PairSelection {
   void select_pairs(StepPairs& step);
   void note_sweeps(StepPairs& step);
   Aabb calc_swept_box(int collider) const;
+  void find_leaving(const StepPairs& step);
+  void find_neighbours(int collider, std::vector<std::int32_t>& out) const;
   std::uint8_t classify(const StepPairs& step, Pair& pair) const;
   bool is_near(const Pair& pair) const;
   static double calc_gap(const Aabb& a, const Aabb& b);
@@ -34,7 +36,11 @@ class PairSelection {
   const Bodies& bodies_;
   Pairs& pairs_;
   ThreadPool& pool_;
-  std::vector<std::uint8_t> leaves_box_;   // by collider
+  // By collider: whether it leaves its enlarged box; of those that do, the box before, and who was not met by it.
+  std::vector<std::uint8_t> leaves_box_;
+  std::vector<Aabb> box_before_, box_after_;
+  std::vector<std::vector<std::int32_t>> neighbours_;  // of the colliders that leave their box, in turn
+  WantedList leaving_;
   std::vector<std::uint8_t> pair_states_;  // by pair: a PairState
 };
 

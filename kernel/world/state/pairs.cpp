@@ -19,7 +19,7 @@ void Pairs::introduce(int first) {
     if (body.lead < 0 || body.lead == i) bodies_.refresh(body);  // a lead refreshes the pieces of its group
     for (int c = 0; c < body.collider_count && !body.lost; ++c) {
       const int collider = body.first_collider + c;
-      data_.broad.update(collider, data_.colliders[collider].box, {});
+      data_.broad.place(collider, BroadPhase::enlarge(data_.colliders[collider].box, {}));
     }
   }
   const std::size_t before = surfaces_.size();
@@ -33,7 +33,8 @@ void Pairs::introduce(int first) {
 void Pairs::find_first(int index) {
   const Body& body = data_.bodies[index];
   bodies_.each_collider(body, [&](int collider) {
-    data_.broad.query(collider, [&](int other) { add(collider, other); });
+    data_.broad.find(collider, found_);
+    for (const std::int32_t other : found_) add(collider, other);
     if (body.mass > 0) add(collider, kGround);
     update_near_surfaces(collider);
   });
@@ -55,7 +56,7 @@ void Pairs::add(int first, int second) {
 }
 
 void Pairs::push(const Pair& pair) {
-  Contact contact;
+  Contact& contact = data_.contacts.emplace_back();
   contact.body_a = pair.body_a;
   contact.body_b = pair.body_b;
   const double mu_a = bodies_.friction_of(pair.collider_a);
@@ -65,7 +66,6 @@ void Pairs::push(const Pair& pair) {
                           : bodies_.friction_of(pair.collider_b);
   contact.friction = float(std::sqrt(mu_a * mu_b));
   data_.pairs.push_back(pair);
-  data_.contacts.push_back(std::move(contact));
 }
 
 void Pairs::update_near_surfaces(int collider) {

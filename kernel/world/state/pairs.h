@@ -48,6 +48,7 @@ class Pairs {
   Bodies& bodies_;
   Waking& waking_;
   std::vector<std::int32_t> surfaces_;  // the bodies that are one, ascending
+  std::vector<std::int32_t> found_;     // of find_first()
 };
 
 }  // namespace rubble

@@ -28,14 +28,14 @@ struct Effort {
 };
 
 struct Speeds {
-  Effort settling, collapsing;  // by pieces
+  Effort settling, collapsing;  // by RunPreview::piled
   Effort driving;               // by simulated seconds of a robot
   Effort lighting;              // by runs that draw: paths, light, shadows
   Effort drawing, tracing;      // by megapixels
 };
 
 // One entry for this machine and user: where the cache folder is.
-std::string speeds_key() { return CacheKey("run speeds", 2).hex(); }
+std::string speeds_key() { return CacheKey("run speeds", 3).hex(); }
 
 Speeds read_speeds() {
   Speeds speeds;
@@ -48,11 +48,11 @@ Speeds read_speeds() {
 
 // What of a run takes time.
 struct Parts {
-  double pieces, robot_seconds, runs, megapixels, traced_megapixels;
+  double piled, robot_seconds, runs, megapixels, traced_megapixels;
 };
 
 Parts parts_of(const RunPreview& preview, bool settles) {
-  return {settles ? preview.pieces : 0, preview.robot_seconds, preview.frames > 0 ? 1.0 : 0.0, preview.megapixels,
+  return {settles ? preview.piled : 0, preview.robot_seconds, preview.frames > 0 ? 1.0 : 0.0, preview.megapixels,
           preview.traced_megapixels};
 }
 
@@ -63,8 +63,9 @@ std::string whole(double number) { return std::to_string(std::llround(number)); 
 RunPreview preview_run(RunKind kind, const Scenario& s, const AssetLibrary& assets, const std::string& out) {
   RunPreview preview;
   const PileScenario& pile = s.pile;
-  preview.pieces = double(pile.layers) * pile.pieces_per_layer + double(pile.placed.size()) +
-                   count_building_pieces(pile, assets);
+  const double first = double(pile.placed.size()) + count_building_pieces(pile, assets), layers = pile.layers;
+  preview.pieces = first + layers * pile.pieces_per_layer;
+  preview.piled = first * (1 + layers) + 0.5 * layers * (layers + 1) * pile.pieces_per_layer;
   if (kind != RunKind::settle) {
     for (std::size_t i = 0; i < s.cameras.size(); ++i) {
       const CameraScenario& camera = s.cameras[i].camera;
@@ -89,10 +90,10 @@ RunPreview preview_run(RunKind kind, const Scenario& s, const AssetLibrary& asse
   const Speeds speeds = read_speeds();
   const Parts parts = parts_of(preview, kind != RunKind::render);
   const Effort& piling = preview.collapses ? speeds.collapsing : speeds.settling;
-  if (piling.tells_of(parts.pieces) && speeds.driving.tells_of(parts.robot_seconds) &&
+  if (piling.tells_of(parts.piled) && speeds.driving.tells_of(parts.robot_seconds) &&
       speeds.lighting.tells_of(parts.runs) && speeds.drawing.tells_of(parts.megapixels) &&
       speeds.tracing.tells_of(parts.traced_megapixels))
-    preview.seconds = piling.expect(parts.pieces) + speeds.driving.expect(parts.robot_seconds) +
+    preview.seconds = piling.expect(parts.piled) + speeds.driving.expect(parts.robot_seconds) +
                       speeds.lighting.expect(parts.runs) + speeds.drawing.expect(parts.megapixels) +
                       speeds.tracing.expect(parts.traced_megapixels);
   return preview;
@@ -132,7 +133,7 @@ void note_speed(const RunPreview& preview, const Progress& progress) {
   };
   Speeds speeds = read_speeds();
   const Parts parts = parts_of(preview, of("settle") > 0);
-  (preview.collapses ? speeds.collapsing : speeds.settling).note(of("settle"), parts.pieces);
+  (preview.collapses ? speeds.collapsing : speeds.settling).note(of("settle"), parts.piled);
   speeds.driving.note(of("robots"), parts.robot_seconds);
   speeds.lighting.note(of("flight") + of("scene"), parts.runs);
   // Of a run that has both nobody knows which took how long.

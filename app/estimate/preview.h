@@ -13,6 +13,8 @@ namespace rubble {
 
 struct RunPreview {
   double pieces = 0, frames = 0;   // frames: 0 for a pile alone
+  // Pieces that are there, summed over the layers that fall on them: each layer wakes some of the pile.
+  double piled = 0;
   // Of all pictures that are drawn: of a stereo pair both, of a pixel all its samples. Each sample of a path-traced pixel is
   // a pixel.
   double megapixels = 0, traced_megapixels = 0;

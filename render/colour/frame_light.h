@@ -26,7 +26,7 @@ struct FrameLight {
   bool glows = false;                    // a look in use shines by itself
   bool surrounded = false;               // as PreparedScene::surrounded
   bool glass = false;                    // as PreparedScene::glass
-  const AirVolume* air_table = nullptr;  // of this frame, unless the air is clear
+  AirVolume* air = nullptr;              // prepared for this frame, unless the air is clear
   MeanFog fog{};                         // of this frame
   const Pose* world_from_rig = nullptr;  // of what bears the lamp; null: the camera does
   std::uint64_t noise = 0;               // as ViewRays::noise

@@ -40,6 +40,7 @@ RUBBLE_INLINE Real as_real(Word w) { return Real(w); }
 RUBBLE_INLINE Real real_from_bits(Int i) { return Real(i); }
 RUBBLE_INLINE Int bits_of(Real x) { return Int(x); }
 RUBBLE_INLINE Mask both(Mask a, Mask b) { return a & b; }
+RUBBLE_INLINE Mask either(Mask a, Mask b) { return a | b; }
 
 RUBBLE_INLINE Real to_real(Int i) { return __builtin_convertvector(i, Real); }
 // Towards zero; of what an Int holds.

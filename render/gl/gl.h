@@ -12,6 +12,7 @@ namespace rubble {
   X(BindBufferBase, BINDBUFFERBASE)                             \
   X(BindBuffer, BINDBUFFER)                                     \
   X(BindFramebuffer, BINDFRAMEBUFFER)                           \
+  X(BindImageTexture, BINDIMAGETEXTURE)                         \
   X(BindTextureUnit, BINDTEXTUREUNIT)                           \
   X(BindVertexArray, BINDVERTEXARRAY)                           \
   X(CheckNamedFramebufferStatus, CHECKNAMEDFRAMEBUFFERSTATUS)   \
@@ -36,6 +37,7 @@ namespace rubble {
   X(DepthFunc, DEPTHFUNC)                                       \
   X(DepthMask, DEPTHMASK)                                       \
   X(Disable, DISABLE)                                           \
+  X(DispatchCompute, DISPATCHCOMPUTE)                           \
   X(DrawArrays, DRAWARRAYS)                                     \
   X(Enable, ENABLE)                                             \
   X(EnableVertexArrayAttrib, ENABLEVERTEXARRAYATTRIB)           \
@@ -57,6 +59,7 @@ namespace rubble {
   X(GetUniformLocation, GETUNIFORMLOCATION)                     \
   X(LinkProgram, LINKPROGRAM)                                   \
   X(AttachShader, ATTACHSHADER)                                 \
+  X(MemoryBarrier, MEMORYBARRIER)                               \
   X(MultiDrawElementsIndirect, MULTIDRAWELEMENTSINDIRECT)       \
   X(NamedBufferData, NAMEDBUFFERDATA)                           \
   X(NamedBufferSubData, NAMEDBUFFERSUBDATA)                     \

@@ -51,6 +51,20 @@ GLuint compile(const Gl& gl, GLenum kind, const ExpandedShader& source) {
                  name_files_in_log(log.c_str(), source.files));
 }
 
+// The shaders are deleted.
+GlProgram link(const Gl& gl, const std::vector<GLuint>& shaders, const std::string& what) {
+  GlProgram program(gl);
+  for (const GLuint shader : shaders) gl.AttachShader(program.name(), shader);
+  gl.LinkProgram(program.name());
+  for (const GLuint shader : shaders) gl.DeleteShader(shader);
+  GLint ok = 0;
+  gl.GetProgramiv(program.name(), GL_LINK_STATUS, &ok);
+  if (ok) return program;
+  std::string log(4096, '\0');
+  gl.GetProgramInfoLog(program.name(), GLsizei(log.size()), nullptr, &log[0]);
+  throw RunError("shaders " + what + " do not link:\n" + log.c_str());
+}
+
 // The length of "N:M" or "N(M)" at the start of `text`, and its numbers; 0 when there is none.
 std::size_t match_position(std::string_view text, std::size_t& file, std::size_t& line) {
   const auto number = [&](std::size_t& at, std::size_t& value) {
@@ -98,20 +112,11 @@ GlProgram make_program(const Gl& gl, const std::string& vertex_file,
 
 GlProgram make_program(const Gl& gl, const ExpandedShader& vertex_text, const ExpandedShader& fragment_text,
                        const std::string& what) {
-  const GLuint vertex = compile(gl, GL_VERTEX_SHADER, vertex_text);
-  const GLuint fragment = compile(gl, GL_FRAGMENT_SHADER, fragment_text);
-  GlProgram program(gl);
-  gl.AttachShader(program.name(), vertex);
-  gl.AttachShader(program.name(), fragment);
-  gl.LinkProgram(program.name());
-  gl.DeleteShader(vertex);
-  gl.DeleteShader(fragment);
-  GLint ok = 0;
-  gl.GetProgramiv(program.name(), GL_LINK_STATUS, &ok);
-  if (ok) return program;
-  std::string log(4096, '\0');
-  gl.GetProgramInfoLog(program.name(), GLsizei(log.size()), nullptr, &log[0]);
-  throw RunError("shaders " + what + " do not link:\n" + log.c_str());
+  return link(gl, {compile(gl, GL_VERTEX_SHADER, vertex_text), compile(gl, GL_FRAGMENT_SHADER, fragment_text)}, what);
+}
+
+GlProgram make_compute_program(const Gl& gl, const std::string& file, const ShaderDefines& defines) {
+  return link(gl, {compile(gl, GL_COMPUTE_SHADER, expand_shader(file, defines))}, file);
 }
 
 void bind_samplers(const Gl& gl, const GlProgram& program,

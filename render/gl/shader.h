@@ -38,6 +38,9 @@ GlProgram make_program(const Gl& gl, const std::string& vertex_file,
 // The same of texts; errors name `what`.
 GlProgram make_program(const Gl& gl, const ExpandedShader& vertex, const ExpandedShader& fragment, const std::string& what);
 
+// Of one compute shader.
+GlProgram make_compute_program(const Gl& gl, const std::string& file, const ShaderDefines& defines = {});
+
 // Says which texture unit each sampler reads; unknown names are ignored, since a variant may not
 // use them all.
 void bind_samplers(const Gl& gl, const GlProgram& program,

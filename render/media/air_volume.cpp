@@ -1,6 +1,7 @@
 #include "render/media/air_volume.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -10,12 +11,12 @@ namespace rubble {
 
 namespace {
 
-static_assert(AirVolume::kSlices <= AirTraceData::kMostSlices);
+static_assert(AirVolume::kSlices <= AirBlock::kMostSlices);
 static_assert(AirVolume::kColumns % 4 == 0 && AirVolume::kRows % 4 == 0);
 
 constexpr float kNearGlow = 4;  // from the eye, as far as a lamp near it has a near glow; unit: cell of the grid
 
-void set(float (&out)[3], const Vec3f& v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
+void set(float (&out)[4], const Vec3f& v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
 
 // Four numbers for each three.
 std::vector<float> padded(const std::vector<Vec3f>& values) {
@@ -25,7 +26,7 @@ std::vector<float> padded(const std::vector<Vec3f>& values) {
   return out;
 }
 
-void fill_medium(const Air& air, AirTraceData& out) {
+void fill_medium(const Air& air, AirBlock& out) {
   out.fog_density = float(air.fog_density()), out.albedo = float(air.albedo());
   out.fog_rate = air.fog_height() > 0 ? float(1 / air.fog_height()) : 0;
   out.fog_g = float(air.fog_asymmetry()), out.dust_g = float(air.dust_asymmetry());
@@ -33,13 +34,13 @@ void fill_medium(const Air& air, AirTraceData& out) {
   const Air::Billows billows = air.billow_noise();
   out.billows = float(billows.strength), out.billow_scale = float(1 / billows.size);
   set(out.drift, Vec3f(billows.drift));
-  out.noise = billows.noise, out.noise_side = Medium::kNoiseSide;
+  out.noise_side = Medium::kNoiseSide;
   out.beam_fog = float(air.turned_share(air.fog_asymmetry()));
   out.beam_drops = float(air.drops() * air.turned_share(Precipitation::kAsymmetry));
 }
 
 // Optical depth of what falls, from each entry of the table to the next.
-void fill_drops(const Air& air, bool drops_drawn, AirTraceData& out) {
+void fill_drops(const Air& air, bool drops_drawn, AirBlock& out) {
   for (int slice = 0; slice < AirVolume::kSlices; ++slice) {
     const double far = AirVolume::slice_distance(slice);
     out.distance[slice] = float(far);
@@ -52,7 +53,7 @@ void fill_drops(const Air& air, bool drops_drawn, AirTraceData& out) {
   }
 }
 
-void fill_lights(const LitAir& lit, AirTraceData& out) {
+void fill_lights(const LitAir& lit, AirBlock& out) {
   const AirLight& baked = lit.baked;
   set(out.origin, baked.origin), set(out.cell, baked.cell);
   const bool grid = baked.radiance.size() > 1;
@@ -60,11 +61,11 @@ void fill_lights(const LitAir& lit, AirTraceData& out) {
   out.light_count = int(lit.lights.lights.size());
   for (std::size_t i = 0; i < lit.lights.lights.size(); ++i) {
     const LightModel& from = lit.lights.lights[i];
-    AirTraceData::Light& to = out.lights[i];
+    AirBlock::Light& to = out.lights[i];
     to.type = int(from.type);
     set(to.position, from.position), set(to.axis, from.axis), set(to.colour, from.colour);
     to.cos_outer = from.cos_outer, to.cone_width = 1 / std::max(from.cos_inner - from.cos_outer, 1e-6f);
-    out.local = out.local || from.type != LightType::directional;
+    if (from.type != LightType::directional) out.local = 1;
   }
   set(out.open, lit.lights.sky.mean * (0.5f * (1 + kGroundReflectance)));
   const Vec3f size = (baked.nearest({1e9f, 1e9f, 1e9f}) - baked.origin) * 0.5f;
@@ -72,8 +73,8 @@ void fill_lights(const LitAir& lit, AirTraceData& out) {
   set(out.box_low, Vec3f(lit.box.min)), set(out.box_high, Vec3f(lit.box.max));
 }
 
-void fill_lamp(const AirLamp& lamp, AirTraceData& out) {
-  out.lamp = true;
+void fill_lamp(const AirLamp& lamp, AirBlock& out) {
+  out.lamp = 1;
   set(out.lamp_position, lamp.position), set(out.lamp_axis, lamp.axis), set(out.lamp_colour, lamp.colour);
   out.lamp_cone = lamp.cone, out.lamp_size2 = lamp.size2;
 }
@@ -85,14 +86,16 @@ double AirVolume::slice_distance(int slice) {
   return slice == kSlices - 1 ? kFarthest : std::min(kFarthest, 2 * u / (1 - u));
 }
 
-void AirVolume::build(const ViewRays& view, const Air& air, const LitAir& lit, const AirLamp* lamp, bool drops_drawn,
-                      const std::vector<float>& farthest, const WideShader& shader, ThreadPool& pool) {
-  table_.resize(std::size_t(kColumns) * kRows * kSlices);
-  find_rays(view);
+void AirVolume::prepare(const ViewRays& view, const Air& air, const LitAir& lit, const AirLamp* lamp, bool drops_drawn,
+                        const std::vector<float>& farthest) {
+  view_ = &view, field_ = lit.field, found_ = false;
+  static std::atomic<std::uint64_t> versions{0};
+  version_ = ++versions;
   find_wanted(farthest);
   AirTraceData data;
   data.columns = kColumns, data.rows = kRows, data.slices = kSlices;
-  data.rays = rays_.data(), data.wanted = wanted_.data(), data.table = table_.front().data();
+  data.wanted = wanted_.data(), data.noise = air.billow_noise().noise;
+  data.has_lens = view.directions ? 1 : 0;
   fill_medium(air, data);
   fill_drops(air, drops_drawn, data);
   fill_lights(lit, data);
@@ -100,23 +103,35 @@ void AirVolume::build(const ViewRays& view, const Air& air, const LitAir& lit, c
   puffs_.clear();
   for (const DustPuff& puff : air.puffs()) {
     const Vec3f c(puff.centre);
-    puffs_.push_back({{c.x, c.y, c.z}, float(puff.deviation), float(puff.extinction)});
+    puffs_.push_back({{c.x, c.y, c.z, float(puff.deviation)}, float(puff.extinction)});
   }
   data.puffs = puffs_.data(), data.puff_count = int(puffs_.size());
   if (baked_radiance_.empty()) baked_radiance_ = padded(lit.baked.radiance), baked_direct_ = padded(lit.baked.direct);
-  data.radiance = baked_radiance_.data(), data.direct = baked_direct_.empty() ? nullptr : baked_direct_.data();
+  data.radiance = baked_radiance_.data(), data.direct = baked_direct_.data();
+  data.has_direct = baked_direct_.empty() ? 0 : 1;
   if (lit.field) {
-    look_around(lit, pool);
-    data.around = around_.front().data(), data.shared = kShared;
+    data.has_around = 1, data.rays_an_entry = kShared;
     data.around_columns = kColumns / kShared, data.around_rows = kRows / kShared;
     if (lamp && !lit.field->of_lamp.empty()) {
       const Vec3f& cell = lit.field->grid.cell;
-      data.near_glow = near_glow(lamp->cone, turned_cosine(air.fog_asymmetry())).table().front().data(), data.near_glow_steps = int(NearGlow::kAngles);
+      data.near_glow = near_glow(lamp->cone, turned_cosine(air.fog_asymmetry())).table().front().data();
+      data.has_near_glow = 1, data.near_glow_steps = int(NearGlow::kAngles);
       data.near_glow_cell = std::min(cell.x, std::min(cell.y, cell.z));
       data.near_glow_reach = kNearGlow * data.near_glow_cell;
     }
   }
-  pool.run(kRows / 4, 1, [&](int begin, int end) { shader.trace_air(data, begin, end); });
+  data_ = data;
+}
+
+const std::vector<std::array<float, 4>>& AirVolume::table(const WideShader& shader, ThreadPool& pool) {
+  if (found_) return table_;
+  found_ = true;
+  table_.resize(std::size_t(kColumns) * kRows * kSlices);
+  find_rays(*view_);
+  data_.rays = rays_.data(), data_.table = table_.front().data();
+  if (field_) look_around(pool), data_.around = around_.front().data();
+  pool.run(kRows / 4, 1, [&](int begin, int end) { shader.trace_air(data_, begin, end); });
+  return table_;
 }
 
 const NearGlow& AirVolume::near_glow(float cone, double cosine) {
@@ -160,16 +175,16 @@ void AirVolume::find_wanted(const std::vector<float>& farthest) {
   }
 }
 
-void AirVolume::look_around(const LitAir& lit, ThreadPool& pool) {
+void AirVolume::look_around(ThreadPool& pool) {
   constexpr int kWide = kColumns / kShared, kHigh = kRows / kShared;
   around_.resize(std::size_t(kWide) * kHigh * kSlices);
   pool.run(kHigh, 1, [&](int begin, int end) {
     for (int row = begin; row < end; ++row)
-      for (int column = 0; column < kWide; ++column) look_around_ray(*lit.field, column, row);
+      for (int column = 0; column < kWide; ++column) look_around_ray(column, row);
   });
 }
 
-void AirVolume::look_around_ray(const RadianceGrid& field, int column, int row) {
+void AirVolume::look_around_ray(int column, int row) {
   int slices = 0;  // that a ray reads which is between this one and its neighbours
   for (int y = std::max(0, (row - 1) * kShared); y < std::min(kRows, (row + 2) * kShared); ++y)
     for (int x = std::max(0, (column - 1) * kShared); x < std::min(kColumns, (column + 2) * kShared); ++x)
@@ -187,7 +202,7 @@ void AirVolume::look_around_ray(const RadianceGrid& field, int column, int row) 
       for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t l = 0; l < kOrders; ++l) (*out)[(first + c) * kOrders + l] = orders[l][int(c)];
     };
-    put(field.at(middle), 0), put(field.of_lamp_at(middle), 3);
+    put(field_->at(middle), 0), put(field_->of_lamp_at(middle), 3);
   }
 }
 

@@ -54,18 +54,7 @@ vec3 lamp_at(vec3 p, out vec3 to_lamp, out float lamp_distance) {
 #ifdef AIR
 // What beams lose in the mean air along a straight line from a height z, as Air::turned_depth().
 float air_depth(float z, float slope, float way) {
-  float drops = air_drops.x * way, rate = air_high.w;
-  float end = z + slope * way;
-  if (rate <= 0.0 || (z <= 0.0 && end <= 0.0)) return air_low.w * way + drops;
-  float low = 0.0, above = way;  // the part below the ground
-  if (z < 0.0 || end < 0.0) {
-    low = z < 0.0 ? -z / slope : end / slope;
-    above = way - low;
-    z = max(z, 0.0);
-  }
-  float x = slope * above * rate;
-  float mean = abs(x) < 1e-3 ? 1.0 - 0.5 * x : (1.0 - exp(-x)) / x;
-  return air_low.w * (low + above * exp(-z * rate) * mean) + drops;
+  return fog_depth(air_low.w, air_high.w, z, slope, way) + air_drops.x * way;
 }
 
 // Share of light i that the air lets pass: of a beam from far away all up to the box.

@@ -8,6 +8,7 @@
 // than VEIL_FROM, 2 surfaces, 3 both.
 #include "frame.glsl"
 #include "geometry.glsl"
+#include "surface_words.glsl"
 #include "lighting.glsl"
 #include "surface.glsl"
 

@@ -1,5 +1,4 @@
 // What a pixel's surface is: normal, layers and baked light, from the triangle it lies on.
-#include "surface_words.glsl"
 
 #ifdef PAINTS
 #include "paint.glsl"

@@ -2,7 +2,6 @@
 // names.
 #pragma once
 
-#include "render/shading/fog_depth.h"
 #include "render/shading/texture_reads.h"
 
 namespace rubble::RUBBLE_ISA {

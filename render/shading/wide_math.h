@@ -1,4 +1,4 @@
-// Functions and vectors of lanes, and the models of surfaces and of tone for them.
+// Functions and vectors of lanes, and the models of surfaces, of tone and of fog for them.
 #pragma once
 
 #include "render/geometry/wide.h"
@@ -10,6 +10,7 @@ namespace rubble::RUBBLE_ISA {
 #define FN RUBBLE_INLINE
 #include "render/shaders/surface_model.glsl"
 #include "render/shaders/tone.glsl"
+#include "render/shaders/fog_depth.glsl"
 #undef FN
 
 }  // namespace rubble::RUBBLE_ISA

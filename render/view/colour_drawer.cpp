@@ -106,10 +106,8 @@ FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surface
   const FogLight* fog = scene_.fog_light();
   const LitAir lit{scene_.air_light(), scene_.resting_light, fog ? &fog->field() : nullptr,
                    air_box(scene_.scene.bounds)};
-  air_volume_.build(view, air, lit, &glow, drops_drawn,
-                    farthest_in_air(view, surfaces.depth_behind(), scene_.pool),
-                    find_wide_shader(scene_.options.instruction_set), scene_.pool);
-  light.air_table = &air_volume_;
+  air_volume_.prepare(view, air, lit, &glow, drops_drawn, farthest_in_air(view, surfaces.depth_behind(), scene_.pool));
+  light.air = &air_volume_;
   const double turned = air.turned_share(air.fog_asymmetry());
   light.fog = {air.fog({}) * turned, air.fog_height(),
                air.drops() * air.turned_share(Precipitation::kAsymmetry),

@@ -36,7 +36,7 @@ class ColourDrawer {
 
  private:
   // What depends on the view: where its lamp is, and the air before it.
-  // drops_drawn: as AirVolume::build().
+  // drops_drawn: as AirVolume::prepare().
   FrameLight light_view(const ViewRays& view, DrawnSurfaces& surfaces, bool drops_drawn);
   std::vector<float> trace(const ViewRays& view) const;
   void draw_traced(const ViewRays& view, std::optional<float> exposure,

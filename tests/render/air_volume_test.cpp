@@ -71,8 +71,8 @@ class AirTable {
   const std::vector<std::array<float, 4>>& build(const Air& air, const std::vector<float>& farthest,
                                                  const WideShader& shader) {
     const LitAir lit{baked_, lights_, nullptr, Aabb{{-5, -5, -1}, {5, 5, 4}}};
-    volume_.build(view(), air, lit, nullptr, false, farthest, shader, pool_);
-    return volume_.table();
+    volume_.prepare(view_, air, lit, nullptr, false, farthest);
+    return volume_.table(shader, pool_);
   }
   static std::size_t at(int column, int row, int slice) {
     return (std::size_t(slice) * AirVolume::kRows + std::size_t(row)) * AirVolume::kColumns +
@@ -80,6 +80,7 @@ class AirTable {
   }
 
  private:
+  const ViewRays view_ = view();
   Scene scene_;
   LightSet lights_;
   AirLight baked_;

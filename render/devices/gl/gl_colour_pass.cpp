@@ -75,19 +75,6 @@ GlTexture upload_ground(const Gl& gl, const GroundMap& ground) {
   return texture;
 }
 
-GlTexture make_air_table(const Gl& gl) {
-  GlTexture texture(gl, GLenum(GL_TEXTURE_3D));
-  const GLuint name = texture.name();
-  gl.TextureStorage3D(name, 1, GL_RGBA32F, AirVolume::kColumns, AirVolume::kRows,
-                      AirVolume::kSlices);
-  gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  for (const GLenum side : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-    gl.TextureParameteri(name, side, GL_CLAMP_TO_EDGE);
-  check_gl(gl, "making the table of the air");
-  return texture;
-}
-
 enum Unit {
   kVisibility,
   kDepth,
@@ -152,9 +139,9 @@ GlColourPass::GlColourPass(const Gl& gl, const GlGeometry& geometry, const GlRas
       frame_block_(gl),
       empty_array_(gl),
       contact_(gl),
+      air_(gl),
       looks_(upload_surface_appearances(gl, patterns)),
       sky_map_(upload_sky(gl, light.lights->sky)),
-      air_table_(make_air_table(gl)),
       ground_map_(upload_ground(gl, ground)),
       ground_(ground),
       texture_size_(patterns.front().size) {
@@ -216,12 +203,11 @@ void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const Vie
   if (anew && lamp)
     contact_.draw(view, depth, place.contact(lamp, light), tiles_.first_row,
                   tiles_.last_row);
-  if (anew && light.air_table)
-    give_image(gl_, air_table_.name(), 0, {0, 0, 0, AirVolume::kColumns, AirVolume::kRows, AirVolume::kSlices}, GL_RGBA,
-               GL_FLOAT, light.air_table->table().data());
   const FrameBlock block =
       fill_frame_block(view, light, place.bearer, ground_, texture_size_, exposure);
   give_buffer(gl_, frame_block_.name(), sizeof block, &block, GL_STREAM_DRAW);
+  if (light.air)
+    air_.trace(*light.air, frame_block_, surfaces.has_rays() ? &lens_rays_ : nullptr, surfaces.has_rays() ? &row_poses_ : nullptr);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
   const GLuint textures[] = {ids.name(),
                              depth.name(),
@@ -233,7 +219,7 @@ void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const Vie
                              shadows_.depth().name(),
                              contact_.openness().name(),
                              sky_map_.name(),
-                             air_table_.name(),
+                             air_.table().name(),
                              ground_map_.name()};
   for (GLuint unit = 0; unit < sizeof textures / sizeof textures[0]; ++unit)
     gl_.BindTextureUnit(unit, textures[unit]);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/colour/colour_pass.h"
+#include "render/devices/gl/air_pass.h"
 #include "render/devices/gl/contact_pass.h"
 #include "render/devices/gl/gl_raster.h"
 #include "render/devices/gl/gl_shadow_pass.h"
@@ -66,8 +67,9 @@ class GlColourPass : public ColourPass {
   GlBuffer frame_block_;
   GlVertexArray empty_array_;
   ContactPass contact_;
+  AirPass air_;
   std::unique_ptr<SunShadowPass> sun_;  // null: the main light is no sun
-  GlTexture looks_, sky_map_, air_table_, ground_map_;
+  GlTexture looks_, sky_map_, ground_map_;
   GlTexture ids_, depth_, lens_rays_, row_poses_;  // of what was drawn last; the first two unless they are in the raster
   int given_width_ = 0, given_height_ = 0;         // of these
   std::uint64_t lens_ = 0;                         // of lens_rays_

@@ -1,7 +1,6 @@
 #include "render/devices/gl/gl_geometry.h"
 
 #include <algorithm>
-#include <cstring>
 #include <string>
 
 #include "kernel/base/error.h"
@@ -11,8 +10,6 @@
 namespace rubble {
 
 namespace {
-
-constexpr std::size_t kLightBlock = 64;  // nodes that are handed over together
 
 GlTexture upload_paint_images(const Gl& gl, const PaintLayers& paints) {
   GlTexture texture(gl, GLenum(GL_TEXTURE_2D_ARRAY));
@@ -32,17 +29,17 @@ GlTexture upload_paint_images(const Gl& gl, const PaintLayers& paints) {
 }  // namespace
 
 GlGeometry::GlGeometry(const Gl& of, const PreparedScene& scene, SceneTables made, const LightTable& at)
-    : gl(of), tables(std::move(made)) {
+    : gl(of), tables(std::move(made)), light(of) {
   static_assert(sizeof(BakedLight) == 8, "shaders read it as two 32-bit words");
   vertices = make_buffer(gl, tables.vertices);
   indices = make_buffer(gl, tables.indices);
   triangles = make_buffer(gl, tables.triangles);
   placed = make_buffer(gl, tables.placed);
-  light = make_buffer(gl, at);
+  light.give(at);
   vertices_view = make_buffer_texture(gl, vertices, GL_RGBA32UI);
   triangles_view = make_buffer_texture(gl, triangles, GL_RGBA32UI);
   placed_view = make_buffer_texture(gl, placed, GL_RGBA32UI);
-  light_view = make_buffer_texture(gl, light, GL_RG32UI);
+  light_view = make_buffer_texture(gl, light.buffer(), GL_RG32UI);
   if (scene.paints) {
     paint = make_buffer(gl, tables.paint);
     paint_view = make_buffer_texture(gl, paint, GL_RGBA32UI);
@@ -65,25 +62,12 @@ void GlGeometry::place(const PreparedScene& scene) {
   check_gl(gl, "moving the pieces");
 }
 
-void GlGeometry::give_light(std::size_t begin, std::size_t end) {
-  give_buffer_part(gl, light.name(), begin * sizeof(BakedLight), (end - begin) * sizeof(BakedLight), &light_there_[begin]);
-}
-
 void GlGeometry::set_light(const LightTable& from, const std::vector<LightRange>* changed) {
-  if (!changed || light_there_.size() != from.size()) {
-    light_there_ = from;
-    give_buffer(gl, light.name(), from.size() * sizeof(BakedLight), from.data(), GL_STREAM_DRAW);
+  if (!changed || light.size() != from.size() * sizeof(BakedLight)) {
+    light.give(from);
   } else {
-    for (const LightRange& range : *changed) {
-      std::size_t begin = range.end;  // of a run of blocks that differ
-      for (std::size_t i = range.begin; i < range.end; i += kLightBlock) {
-        const std::size_t end = std::min(i + kLightBlock, std::size_t(range.end)), bytes = (end - i) * sizeof(BakedLight);
-        const bool same = std::memcmp(&light_there_[i], &from[i], bytes) == 0;
-        if (!same) std::memcpy(&light_there_[i], &from[i], bytes), begin = std::min(begin, i);
-        if (same && begin < i) give_light(begin, i), begin = range.end;
-      }
-      if (begin < range.end) give_light(begin, range.end);
-    }
+    for (const LightRange& range : *changed)
+      light.give_part(from.data(), range.begin * sizeof(BakedLight), range.end * sizeof(BakedLight));
   }
   check_gl(gl, "handing the light over");
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/geometry/scene_tables.h"
-#include "render/gl/gl_objects.h"
+#include "render/gl/gl_mirror.h"
 
 namespace rubble {
 
@@ -23,16 +23,12 @@ struct GlGeometry {
 
   const Gl& gl;
   SceneTables tables;  // without those that are on the card
-  GlBuffer vertices, indices, triangles, placed, light;
+  GlBuffer vertices, indices, triangles, placed;
+  GlMirror light;
   GlTexture vertices_view, triangles_view, placed_view, light_view;
   // See shaders/paint.glsl; nothing where nothing is painted.
   GlBuffer paint;
   GlTexture paint_view, paint_images;
-
- private:
-  void give_light(std::size_t begin, std::size_t end);
-
-  LightTable light_there_;  // as the card has it
 };
 
 }  // namespace rubble

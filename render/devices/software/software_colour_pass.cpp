@@ -123,7 +123,7 @@ class SoftwareColourPass : public ColourPass {
     data_.vertices = tables_.vertices.data(), data_.triangles = tables_.triangles.data();
     data_.placed = tables_.placed.data(), data_.paint = tables_.paint.data();
     data_.light = light.nodes->data();
-    data_.air_table = light.air_table ? light.air_table->table().front().data() : nullptr;
+    data_.air_table = light.air ? light.air->table(shader_, pool_).front().data() : nullptr;
     data_.shadow_map = shadows_.texels().data(), data_.shadow_side = light.shadow->side;
     // What the exposure is found by needs no smooth shadows.
     data_.sun_edges = {};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "render/camera/projection.h"
@@ -31,15 +32,16 @@ class ColourPass {
  public:
   virtual ~ColourPass() = default;
 
-  // How bright the view is, for its exposure.
-  virtual MeteredImage meter(const ViewProjection& view, const Pose& world_from_camera,
-                             const SurfaceImages& surfaces, const FrameLight& light) = 0;
-  // Display colours: 4 bytes a pixel, the last unused. exposure: what luminance in kcd/m2 is
-  // multiplied by. metered: meter() was the last call, for the same view.
+  // The exposure that the view asks for: what luminance in kcd/m2 is multiplied by.
+  virtual float meter(const ViewProjection& view, const Pose& world_from_camera,
+                      const SurfaceImages& surfaces, const FrameLight& light) = 0;
+  // Display colours: 4 bytes a pixel, the last unused. exposure: none: as meter() finds it.
+  // metered: meter() was the last call, for the same view.
   virtual void draw(const ViewProjection& view, const Pose& world_from_camera,
-                    const SurfaceImages& surfaces, const FrameLight& light, float exposure,
+                    const SurfaceImages& surfaces, const FrameLight& light, std::optional<float> exposure,
                     bool metered) = 0;
-  virtual void read(std::vector<std::uint8_t>& rgba) = 0;
+  // Returns the exposure of what was drawn.
+  virtual float read(std::vector<std::uint8_t>& rgba) = 0;
 
   // Radiance before exposure and tone mapping, 4 floats a pixel (R, G, B in kcd/m2).
   virtual std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,

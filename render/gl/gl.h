@@ -48,6 +48,7 @@ namespace rubble {
   X(GenerateTextureMipmap, GENERATETEXTUREMIPMAP)               \
   X(GetError, GETERROR)                                         \
   X(GetIntegerv, GETINTEGERV)                                   \
+  X(GetNamedBufferSubData, GETNAMEDBUFFERSUBDATA)               \
   X(GetProgramInfoLog, GETPROGRAMINFOLOG)                       \
   X(GetProgramiv, GETPROGRAMIV)                                 \
   X(GetShaderInfoLog, GETSHADERINFOLOG)                         \

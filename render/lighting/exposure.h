@@ -15,6 +15,9 @@ struct ExposureOptions {
   double dusk = 0.35;
 };
 
+// Of images for display.
+inline constexpr ExposureOptions kDisplayExposure{0.21};
+
 // Every 4th pixel of an image in each direction, rows in any order.
 struct MeteredImage {
   int width = 0, height = 0;  // of what was metered: a quarter of the image's

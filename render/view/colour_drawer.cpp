@@ -120,7 +120,9 @@ std::vector<float> ColourDrawer::trace(const ViewRays& view) const {
 }
 
 float ColourDrawer::expose(const MeteredImage& metered) const {
-  return find_exposure({0.21, scene_.options.fixed_exposure}, metered);
+  ExposureOptions options = kDisplayExposure;
+  options.fixed = scene_.options.fixed_exposure;
+  return find_exposure(options, metered);
 }
 
 void ColourDrawer::draw_traced(const ViewRays& view, std::optional<float> exposure,
@@ -149,29 +151,28 @@ void ColourDrawer::draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces,
   const Stopwatch start;
   const ViewProjection projection = projection_of(view);
   const SurfaceImages images = surfaces.images();
-  const bool metered = !exposure && scene_.options.fixed_exposure <= 0;
-  if (!metered) image.exposure = exposure ? *exposure : expose(MeteredImage());
-  FrameLight light;
-  const auto light_and_expose = [&] {
-    light = light_view(view, surfaces, false);
-    if (metered) image.exposure = expose(resolve_->meter(projection, view.world_from_camera, images, light));
-  };
+  if (!exposure && scene_.options.fixed_exposure > 0) exposure = float(scene_.options.fixed_exposure);
   light_shown(surfaces);
   scene_.light_air(view.stamp_ns);
-  bool bounce = scene_.aim_lamp(view.lamp_bearer(), view.stamp_ns);
-  if (bounce && !metered) bounce = scene_.bounce_shows(image.exposure);
+  bool bounce = scene_.aim_lamp(view.lamp_bearer(), view.stamp_ns), metered = false;
+  if (bounce && exposure) bounce = scene_.bounce_shows(*exposure);
   // In daylight it hardly ever shows. What the image is like without it tells.
-  const bool try_without = bounce && metered && scene_.lamp_is_in_the_open();
+  const bool try_without = bounce && !exposure && scene_.lamp_is_in_the_open();
   set_bounce(bounce && !try_without, surfaces);
-  light_and_expose();
-  if (try_without && scene_.bounce_shows(image.exposure)) {
-    set_bounce(true, surfaces);
-    light_and_expose();
+  FrameLight light = light_view(view, surfaces, false);
+  if (try_without) {
+    const float found = resolve_->meter(projection, view.world_from_camera, images, light);
+    if (scene_.bounce_shows(found)) {
+      set_bounce(true, surfaces);
+      light = light_view(view, surfaces, false);
+    } else {
+      exposure = found, metered = true;
+    }
   }
-  resolve_->draw(projection, view.world_from_camera, images, light, image.exposure, metered);
+  resolve_->draw(projection, view.world_from_camera, images, light, exposure, metered);
   image.resolve = start.time();
   const Stopwatch read;
-  resolve_->read(rgba);
+  image.exposure = resolve_->read(rgba);
   image.read = read.time();
 }
 

@@ -75,6 +75,8 @@ GlTexture upload_ground(const Gl& gl, const GroundMap& ground) {
   return texture;
 }
 
+constexpr std::size_t kExposureAt = offsetof(FrameBlock, view) / sizeof(float) + 1;  // in the block of the frame
+
 enum Unit {
   kVisibility,
   kDepth,
@@ -144,7 +146,13 @@ GlColourPass::GlColourPass(const Gl& gl, const GlGeometry& geometry, const GlRas
       sky_map_(upload_sky(gl, light.lights->sky)),
       ground_map_(upload_ground(gl, ground)),
       ground_(ground),
+      exposure_(make_compute_program(gl, "exposure.comp.glsl",
+                                     {{"EXPOSURE_AT", std::to_string(kExposureAt)},
+                                      {"KEY", std::to_string(kDisplayExposure.key)},
+                                      {"DUSK", std::to_string(kDisplayExposure.dusk)}})),
+      colour_back_(gl),
       texture_size_(patterns.front().size) {
+  bind_samplers(gl, exposure_, {{"metered", 0}});
   defines_ = variant_of(light, geometry);
   if (shadows.edges())
     sun_ = std::make_unique<SunShadowPass>(gl, light.shadow->lights.front().views,
@@ -189,13 +197,13 @@ void GlColourPass::resize(int width, int height) {
 
 void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const ViewProjection& view,
                              const Pose& world_from_camera, const SurfaceImages& surfaces,
-                             const FrameLight& light, float exposure, bool anew,
+                             const FrameLight& light, std::optional<float> exposure, bool anew,
                              const GlassLayer* layer) {
   if (anew) tiles_ = tiles_of(view, surfaces);
   const bool all_light = variant & (kLinear | kMeter);
   const ViewLamp place = find_view_lamp(view, world_from_camera, light);
   const bool lamp = has_lamp(light) &&
-                    (all_light || lamp_shows(light, place.offset, tiles_.nearest_value, exposure));
+                    (all_light || !exposure || lamp_shows(light, place.offset, tiles_.nearest_value, *exposure));
   if (lamp) variant |= kLamp;
   if (anew) hand_over(view, surfaces);
   const GlTexture& ids = surfaces.in_raster ? raster_.id_texture() : ids_;
@@ -204,8 +212,15 @@ void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const Vie
     contact_.draw(view, depth, place.contact(lamp, light), tiles_.first_row,
                   tiles_.last_row);
   const FrameBlock block =
-      fill_frame_block(view, light, place.bearer, ground_, texture_size_, exposure);
+      fill_frame_block(view, light, place.bearer, ground_, texture_size_, exposure.value_or(1));
   give_buffer(gl_, frame_block_.name(), sizeof block, &block, GL_STREAM_DRAW);
+  if (!exposure) {
+    gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, frame_block_.name());
+    gl_.BindTextureUnit(0, metered_.name());
+    gl_.UseProgram(exposure_.name());
+    gl_.DispatchCompute(1, 1, 1);
+    gl_.MemoryBarrier(GL_UNIFORM_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  }
   if (light.air)
     air_.trace(*light.air, frame_block_, surfaces.has_rays() ? &lens_rays_ : nullptr, surfaces.has_rays() ? &row_poses_ : nullptr);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
@@ -343,37 +358,52 @@ void GlColourPass::draw_tiles(int variant, const ImageTiles& tiles, int every, c
   gl_.Disable(GL_SCISSOR_TEST);
 }
 
-MeteredImage GlColourPass::meter(const ViewProjection& view, const Pose& world_from_camera,
-                                 const SurfaceImages& surfaces, const FrameLight& light) {
-  const auto count = [](int pixels) { return (pixels + kMeterEvery / 2 - 1) / kMeterEvery; };
-  MeteredImage out;
-  out.width = count(view.intrinsics.width), out.height = count(view.intrinsics.height);
-  const GlTexture texture =
-      make_target(gl_, GL_R32F, std::max(1, out.width), std::max(1, out.height));
-  const GlFramebuffer target(gl_);
-  gl_.NamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
+void GlColourPass::draw_meter(const ViewProjection& view, const Pose& world_from_camera, const SurfaceImages& surfaces,
+                              const FrameLight& light) {
+  const auto count = [](int pixels) { return std::max(1, (pixels + kMeterEvery / 2 - 1) / kMeterEvery); };
+  metered_ = make_target(gl_, GL_R32F, count(view.intrinsics.width), count(view.intrinsics.height));
+  meter_target_ = GlFramebuffer(gl_);
+  gl_.NamedFramebufferTexture(meter_target_.name(), GL_COLOR_ATTACHMENT0, metered_.name(), 0);
+  const float none[4] = {-2000, 0, 0, 0};
+  gl_.ClearNamedFramebufferfv(meter_target_.name(), GL_COLOR, 0, none);
   draw_behind(view, world_from_camera, surfaces, light);
-  draw_with(kMeter, target, view, world_from_camera, surfaces, light, 1);
-  out.stops.resize(std::size_t(out.width) * std::size_t(out.height));
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target.name());
-  take_pixels(gl_, out.width, out.height, GL_RED, GL_FLOAT, out.stops.data());
+  draw_with(kMeter, meter_target_, view, world_from_camera, surfaces, light, 1);
   check_gl(gl_, "metering the image");
-  return out;
+}
+
+float GlColourPass::meter(const ViewProjection& view, const Pose& world_from_camera,
+                          const SurfaceImages& surfaces, const FrameLight& light) {
+  draw_meter(view, world_from_camera, surfaces, light);
+  MeteredImage image;
+  image.width = (view.intrinsics.width + kMeterEvery / 2 - 1) / kMeterEvery;
+  image.height = (view.intrinsics.height + kMeterEvery / 2 - 1) / kMeterEvery;
+  image.stops.resize(std::size_t(image.width) * std::size_t(image.height));
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, meter_target_.name());
+  take_pixels(gl_, image.width, image.height, GL_RED, GL_FLOAT, image.stops.data());
+  return find_exposure(kDisplayExposure, image);
 }
 
 void GlColourPass::draw(const ViewProjection& view, const Pose& world_from_camera,
-                        const SurfaceImages& surfaces, const FrameLight& light, float exposure,
+                        const SurfaceImages& surfaces, const FrameLight& light, std::optional<float> exposure,
                         bool metered) {
   resize(view.intrinsics.width, view.intrinsics.height);
-  if (!metered) draw_behind(view, world_from_camera, surfaces, light);
-  draw_with(0, target_, view, world_from_camera, surfaces, light, exposure, !metered);
+  if (!exposure) {
+    draw_meter(view, world_from_camera, surfaces, light);
+  } else if (!metered) {
+    draw_behind(view, world_from_camera, surfaces, light);
+  }
+  draw_with(0, target_, view, world_from_camera, surfaces, light, exposure, exposure && !metered);
 }
 
-void GlColourPass::read(std::vector<std::uint8_t>& rgba) {
+float GlColourPass::read(std::vector<std::uint8_t>& rgba) {
   rgba.resize(std::size_t(width_) * std::size_t(height_) * 4);
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
-  take_pixels(gl_, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  colour_back_.ask(width_, height_, GL_RGBA, GL_UNSIGNED_BYTE);
+  colour_back_.take(rgba.data());
+  float exposure = 0;
+  take_buffer(gl_, frame_block_.name(), kExposureAt * sizeof(float), sizeof exposure, &exposure, false);
   check_gl(gl_, "reading the image back");
+  return exposure;
 }
 
 std::vector<float> GlColourPass::draw_linear(const ViewProjection& view,

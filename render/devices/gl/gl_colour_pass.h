@@ -13,6 +13,7 @@
 #include "render/devices/gl/image_tiles.h"
 #include "render/devices/gl/sun_shadow_pass.h"
 #include "render/geometry/ground_map.h"
+#include "render/gl/gl_readback.h"
 #include "render/gl/shader.h"
 #include "render/materials/textures.h"
 
@@ -25,12 +26,12 @@ class GlColourPass : public ColourPass {
                const FrameLight& light, const GroundMap& ground, const std::vector<PatternImage>& patterns,
                ThreadPool& pool);
 
-  MeteredImage meter(const ViewProjection& view, const Pose& world_from_camera,
-                     const SurfaceImages& surfaces, const FrameLight& light) override;
+  float meter(const ViewProjection& view, const Pose& world_from_camera,
+              const SurfaceImages& surfaces, const FrameLight& light) override;
   void draw(const ViewProjection& view, const Pose& world_from_camera,
-            const SurfaceImages& surfaces, const FrameLight& light, float exposure,
+            const SurfaceImages& surfaces, const FrameLight& light, std::optional<float> exposure,
             bool metered) override;
-  void read(std::vector<std::uint8_t>& rgba) override;
+  float read(std::vector<std::uint8_t>& rgba) override;
   std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
                                  const SurfaceImages& surfaces, const FrameLight& light) override;
 
@@ -44,10 +45,10 @@ class GlColourPass : public ColourPass {
   void hand_over(const ViewProjection& view, const SurfaceImages& surfaces);
   void draw_behind(const ViewProjection& view, const Pose& world_from_camera, const SurfaceImages& surfaces,
                    const FrameLight& light);
-  // anew: not as the time before, so what is found from the surfaces and the light is not there yet.
+  // exposure: none: of what draw_meter() has drawn. anew: not as the time before, so what is found from the surfaces and the light is not there yet.
   void draw_with(int variant, const GlFramebuffer& target, const ViewProjection& view,
                  const Pose& world_from_camera, const SurfaceImages& surfaces,
-                 const FrameLight& light, float exposure, bool anew = true,
+                 const FrameLight& light, std::optional<float> exposure, bool anew = true,
                  const GlassLayer* layer = nullptr);  // layer: that alone is drawn
 
   const Gl& gl_;
@@ -58,6 +59,8 @@ class GlColourPass : public ColourPass {
   enum Variant { kLinear = 1, kRays = 2, kLamp = 4, kMeter = 8, kSoftSun = 16, kBehind = 32 };
   const GlProgram& program(int variant, TileContent content);  // made when it is first needed
   ImageTiles tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const;
+  void draw_meter(const ViewProjection& view, const Pose& world_from_camera, const SurfaceImages& surfaces,
+                  const FrameLight& light);
   bool draw_sun(const ViewProjection& view, const SurfaceImages& surfaces, const FrameLight& light);
   void draw_tiles(int variant, const ImageTiles& tiles, int every,  // n-th pixel
                   const GlassLayer* layer);
@@ -77,8 +80,10 @@ class GlColourPass : public ColourPass {
   ImageTiles tiles_;  // of what was drawn last
   std::vector<Behind> behind_;  // the outermost first
   const GlTexture* shown_behind_ = nullptr;  // by what is drawn next; null: nothing
-  GlTexture colour_;
-  GlFramebuffer target_;
+  GlTexture colour_, metered_;
+  GlFramebuffer target_, meter_target_;
+  GlProgram exposure_;  // of what was metered, into the block of the frame
+  GlReadback colour_back_;
   int width_ = 0, height_ = 0;
   int texture_size_ = 1;
 };

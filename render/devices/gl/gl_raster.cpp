@@ -29,7 +29,9 @@ GlRaster::GlRaster(const Gl& gl, const PreparedScene& scene, const GlGeometry& g
                                   {{"NEAR_PLANE", std::to_string(kNearPlane)}})),
       list_(gl, geometry),
       block_(gl),
-      empty_array_(gl) {
+      empty_array_(gl),
+      values_back_(gl),
+      ids_back_(gl) {
   bind_samplers(gl, plane_program_,
                 {{"visibility", 0}, {"vertex_table", 1}, {"triangle_table", 2}, {"placed_table", 3}});
   gl.UniformBlockBinding(plane_program_.name(), gl.GetUniformBlockIndex(plane_program_.name(), "Plane"), 0);
@@ -90,14 +92,23 @@ void GlRaster::finish() {
   gl_.UseProgram(plane_program_.name());
   gl_.BindVertexArray(empty_array_.name());
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-  take_pixels(gl_, width_, height_, GL_RED, GL_FLOAT, values_.data());
+  values_back_.ask(width_, height_, GL_RED, GL_FLOAT);
+  ids_asked_ = ids_wanted_, ids_wanted_ = false;
+  if (ids_asked_) ask_ids();
+  values_back_.take(values_.data());
   check_gl(gl_, "drawing the triangles");
 }
 
-std::vector<std::uint32_t> GlRaster::read_ids() const {
-  std::vector<std::uint32_t> out(values_.size() * 2);
+void GlRaster::ask_ids() const {
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
-  take_pixels(gl_, width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT, out.data());
+  ids_back_.ask(width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT);
+}
+
+std::vector<std::uint32_t> GlRaster::read_ids() const {
+  ids_wanted_ = true;
+  std::vector<std::uint32_t> out(values_.size() * 2);
+  if (!ids_asked_) ask_ids();
+  ids_back_.take(out.data());
   check_gl(gl_, "reading the triangle numbers back");
   return out;
 }

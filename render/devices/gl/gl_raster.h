@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/devices/gl/draw_list.h"
+#include "render/gl/gl_readback.h"
 #include "render/gl/shader.h"
 #include "render/passes/triangle_raster.h"
 
@@ -32,6 +33,7 @@ class GlRaster : public TriangleRaster {
   void resize(int width, int height);
   void add_record(std::uint32_t placed);
   void add_run(const ClusterRun& run);
+  void ask_ids() const;
 
   const Gl& gl_;
   const PreparedScene& scene_;
@@ -45,6 +47,10 @@ class GlRaster : public TriangleRaster {
   int width_ = 0, height_ = 0;
   const ViewProjection* view_ = nullptr;
   std::vector<float> values_;
+  mutable GlReadback values_back_, ids_back_;
+  // ids: come back with the depth where those of the image before were asked for.
+  mutable bool ids_wanted_ = false;
+  bool ids_asked_ = false;
 };
 
 }  // namespace rubble

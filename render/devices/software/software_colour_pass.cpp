@@ -34,8 +34,8 @@ class SoftwareColourPass : public ColourPass {
     fill_scene(light);
   }
 
-  MeteredImage meter(const ViewProjection& view, const Pose& world_from_camera,
-                     const SurfaceImages& surfaces, const FrameLight& light) override {
+  float meter(const ViewProjection& view, const Pose& world_from_camera,
+              const SurfaceImages& surfaces, const FrameLight& light) override {
     const auto count = [](int pixels) { return (pixels + kMeterEvery / 2 - 1) / kMeterEvery; };
     MeteredImage out;
     out.width = count(view.intrinsics.width), out.height = count(view.intrinsics.height);
@@ -45,14 +45,16 @@ class SoftwareColourPass : public ColourPass {
     ShadedPixels pixels;
     pixels.stops = out.stops.data(), pixels.width = out.width, pixels.height = out.height;
     shade(pixels);
-    return out;
+    return find_exposure(kDisplayExposure, out);
   }
 
   void draw(const ViewProjection& view, const Pose& world_from_camera,
-            const SurfaceImages& surfaces, const FrameLight& light, float exposure,
+            const SurfaceImages& surfaces, const FrameLight& light, std::optional<float> exposure,
             bool metered) override {
+    if (!exposure) exposure = meter(view, world_from_camera, surfaces, light), metered = true;
+    exposure_ = *exposure;
     if (!metered) shade_behind(view, world_from_camera, surfaces, light);
-    prepare(view, world_from_camera, surfaces, light, exposure,
+    prepare(view, world_from_camera, surfaces, light, exposure_,
             metered ? Purpose::display_metered : Purpose::display);
     ShadedPixels pixels;
     pixels.width = data_.width, pixels.height = data_.height;
@@ -61,7 +63,10 @@ class SoftwareColourPass : public ColourPass {
     shade(pixels);
   }
 
-  void read(std::vector<std::uint8_t>& rgba) override { rgba.swap(display_); }
+  float read(std::vector<std::uint8_t>& rgba) override {
+    rgba.swap(display_);
+    return exposure_;
+  }
 
   std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
                                  const SurfaceImages& surfaces, const FrameLight& light) override {
@@ -201,6 +206,7 @@ class SoftwareColourPass : public ColourPass {
   ShadingData data_;
   std::vector<float> edge_blocks_;
   std::vector<std::uint8_t> display_;
+  float exposure_ = 0;  // of these
   std::vector<std::vector<float>> behind_;  // each glass, four a pixel, as ShadingData::behind
 };
 

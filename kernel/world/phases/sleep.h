@@ -36,6 +36,7 @@ class Sleep {
  private:
   std::int32_t find_hit(const StepPairs& step, std::int32_t pair) const;
   void wake_changed(const StepPairs& step);
+  void limit_warm_starts(const StepPairs& step);
   float wake_impulse(const Body& body) const;  // a contact's must change by this; unit: N s
   void find_overlapping(const StepPairs& step);
   void count_still_steps(const StepPairs& step);

@@ -12,7 +12,7 @@ namespace {
 
 PileState state_of(const World& world) {
   PileState state;
-  for (int i = 0; i < world.size(); ++i) state.pieces.push_back(world.piece(i));
+  state.pieces = world.pieces();
   return state;
 }
 

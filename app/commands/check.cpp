@@ -8,6 +8,7 @@
 #include "app/assets/asset_library.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/mission/resolved_mission.h"
 #include "app/robots/mission_robot.h"
 #include "app/support/print.h"
 #include "scripting/mission.h"
@@ -104,10 +105,7 @@ void print_robots(const std::string& script, const Mission& mission, const Asset
 
 ExitCode check_mission(const CheckRequest& check) {
   const RunRequest& request = check.run;
-  MissionOptions options;
-  options.seed = request.seed;
-  options.overrides = request.overrides;
-  const Mission mission = load_mission(request.mission, options);
+  const Mission mission = load_mission(request.mission, mission_options(request));
   for (const std::string& line : mission.printed) print_err("%s\n", line.c_str());
   const AssetLibrary assets = load_assets(mission, request.asset_packs);
   for (const std::string& warning : assets.warnings)

@@ -33,15 +33,6 @@ std::vector<std::string> device_override(const RunRequest& request) {
   return {"device=" + device_names()[std::size_t(asked->kind)]};
 }
 
-MissionOptions mission_options(const RunRequest& request) {
-  MissionOptions options;
-  options.seed = request.seed;
-  options.overrides = device_override(request);
-  options.overrides.insert(options.overrides.end(), request.overrides.begin(), request.overrides.end());
-  if (request.track) options.overrides.push_back("outputs.track=true");
-  return options;
-}
-
 Mission load_and_print(const RunRequest& request) {
   Mission mission = load_mission(request.mission, mission_options(request));
   for (const std::string& line : mission.printed) print_err("%s\n", line.c_str());
@@ -77,6 +68,18 @@ void check_program(const Json& json, const std::string& file) {
 }
 
 }  // namespace
+
+MissionOptions mission_options(const RunRequest& request) {
+  for (const std::string& text : request.overrides)
+    if (request.seed && text.compare(0, 5, "seed=") == 0)
+      throw InputError({"", 0, "--seed", "is given beside --set " + text, "one of them", std::to_string(*request.seed), ""});
+  MissionOptions options;
+  options.seed = request.seed;
+  options.overrides = device_override(request);
+  options.overrides.insert(options.overrides.end(), request.overrides.begin(), request.overrides.end());
+  if (request.track) options.overrides.push_back("outputs.track=true");
+  return options;
+}
 
 ResolvedMission resolve_mission(const RunRequest& request, RunKind kind, RunContext& context) {
   const Mission loaded = load_and_print(request);

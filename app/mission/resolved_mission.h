@@ -23,6 +23,9 @@ struct ResolvedMission {
   AssetLibrary assets;     // of the pile
 };
 
+// What a command was asked besides the script. Throws InputError where it says one thing twice.
+MissionOptions mission_options(const RunRequest& request);
+
 // From a script on the disk. Prints what the script prints, and warnings of the assets.
 ResolvedMission resolve_mission(const RunRequest& request, RunKind kind, RunContext& context);
 // The pile of a provenance; the packs are looked for in `pack_folders` and among the bundled ones.

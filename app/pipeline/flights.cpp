@@ -4,6 +4,7 @@
 #include <set>
 
 #include "app/mission/finished_run.h"
+#include "app/mission/resolved_mission.h"
 #include "app/pipeline/live.h"
 #include "app/pipeline/run.h"
 #include "app/support/stop.h"
@@ -26,10 +27,7 @@ Track load_track_of(const std::string& from) {
 }
 
 Scenario load_scenario(const RunRequest& request) {
-  MissionOptions options;
-  options.seed = request.seed;
-  options.overrides = request.overrides;
-  return load_mission(request.mission, options).scenario;
+  return load_mission(request.mission, mission_options(request)).scenario;
 }
 
 // Before the pile is settled. Throws InputError: another pile, seed, or a track that the first run does not keep.

@@ -113,6 +113,12 @@ int World::awake_count() const {
   return count;
 }
 
+std::vector<PieceState> World::pieces() const {
+  std::vector<PieceState> all;
+  for (int i = 0; i < size(); ++i) all.push_back(piece(i));
+  return all;
+}
+
 PieceState World::piece(int index) const {
   const Body& piece = impl_->data.bodies[index];
   const Body& body = impl_->bodies.acting(index);

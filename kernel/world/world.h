@@ -75,6 +75,7 @@ class World {
   double time() const;  // simulated; unit: s
 
   PieceState piece(int index) const;
+  std::vector<PieceState> pieces() const;  // all, in their order
   Vec3 centre_of_mass(int index) const;  // in the frame of the piece's type, scaled; unit: m
   bool is_awake(int index) const;
   bool is_touching(int index) const;  // whether it had a contact in the last step

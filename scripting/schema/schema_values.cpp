@@ -1,29 +1,11 @@
 // The types a key can have: what is expected, how a value is checked and stored.
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
-#include "scripting/schema/schema.h"
+#include "scripting/schema/slot_kinds.h"
 
 namespace rubble {
 namespace {
-
-template <typename T, typename... Ts>
-constexpr bool is_any = (std::is_same_v<T, Ts> || ...);
-
-template <typename T>
-constexpr bool is_integer = is_any<T, int*, std::int64_t*, std::uint64_t*>;
-template <typename T>
-constexpr bool is_number = is_any<T, double*, std::optional<double>*>;
-template <typename T>
-constexpr bool is_vector = is_any<T, Vec3*, std::optional<Vec3>*>;
-template <typename T>
-constexpr bool is_pair = is_any<T, NumberPair*, std::optional<NumberPair>*>;
-template <typename T>
-constexpr bool is_text = is_any<T, std::string*, std::optional<std::string>*>;
-template <typename T>
-constexpr bool is_optional = is_any<T, std::optional<double>*, std::optional<std::string>*,
-                                    std::optional<Vec3>*, std::optional<NumberPair>*>;
 
 constexpr double kTwo63 = 9223372036854775808.0;
 
@@ -182,18 +164,6 @@ Outcome store_word_or_file(const WordOrFile& to, const Value& value) {
   return Outcome::stored;
 }
 
-// The members of { find_void = { ... } }.
-Schema void_place_schema(VoidPlace& place) {
-  Schema k;
-  k.value("radius", place.radius, "").between(0.02, 10);
-  k.value("rank", place.rank, "").between(1, 1e6);
-  k.choice("by", place.order, {"volume", "depth"}, "");
-  k.choice("place", place.point, {"entrance", "approach", "deepest", "widest"}, "");
-  k.value("distance", place.distance, "").between(0, 100);
-  k.value("outside_radius", place.outside_radius, "").between(0.2, 10);
-  return k;
-}
-
 Outcome store_place(const Range& range, const PlaceSlot& to, const Value& value) {
   const Value* marker = value.kind == Value::Kind::table ? value.find("find_void") : nullptr;
   if (marker && value.fields.size() == 1 && marker->kind == Value::Kind::table) {
@@ -276,101 +246,6 @@ Outcome store(const Range& range, const Slot& slot, const Value& value) {
   return std::visit([&](const auto& to) { return store_as(range, to, value); }, slot);
 }
 
-Value list_of(const std::vector<std::string>& strings) {
-  Value list = Value::make_table();
-  for (const std::string& s : strings) list.items.push_back(Value::make_text(s));
-  return list;
-}
-
-// The keys below `pattern` as a table, its groups as tables in it.
-Value table_of(const Schema& schema, const std::string& pattern) {
-  Value table = Value::make_table();
-  for (const Key* key : schema.children(pattern))
-    table.set(key->name(), key->kind == KeyKind::value ? read_slot(key->bind(0))
-                                                       : table_of(schema, key->path));
-  return table;
-}
-
-// Nothing, where there are none.
-Value table_of(const NamedTables& tables) {
-  const std::vector<std::string> names = tables.names();
-  Value all = names.empty() ? Value() : Value::make_table();
-  for (std::size_t i = 0; i < names.size(); ++i)
-    all.set(names[i], table_of(tables.make_item(i), ""));
-  return all;
-}
-
-template <typename T>
-Value read_as(const T& from) {
-  if constexpr (std::is_same_v<T, bool*>) {
-    return Value::make_boolean(*from);
-  } else if constexpr (std::is_same_v<T, Negated>) {
-    return Value::make_boolean(!*from.member);
-  } else if constexpr (is_integer<T>) {
-    return Value::make_integer(static_cast<std::int64_t>(*from));
-  } else if constexpr (is_optional<T>) {
-    if (!*from) return {};
-    auto plain = **from;
-    return read_slot(Slot(&plain));
-  } else if constexpr (is_number<T>) {
-    return Value::make_number(*from);
-  } else if constexpr (is_text<T>) {
-    return Value::make_text(*from);
-  } else if constexpr (is_vector<T>) {
-    Value v = Value::make_table();
-    for (int i = 0; i < 3; ++i) v.items.push_back(Value::make_number((*from)[i]));
-    return v;
-  } else if constexpr (is_pair<T>) {
-    Value v = Value::make_table();
-    for (const double part : *from) v.items.push_back(Value::make_number(part));
-    return v;
-  } else if constexpr (std::is_same_v<T, Choice>) {
-    return Value::make_text(from.names[std::size_t(from.get())]);
-  } else if constexpr (std::is_same_v<T, StringOrList>) {
-    return list_of(*from.member);
-  } else if constexpr (std::is_same_v<T, Value*>) {
-    return *from;
-  } else if constexpr (std::is_same_v<T, std::vector<double>*>) {
-    Value list = Value::make_table();
-    for (const double number : *from) list.items.push_back(Value::make_number(number));
-    return list;
-  } else if constexpr (std::is_same_v<T, PlaceSlot>) {
-    if (!*from.in_void) return from.point ? read_slot(Slot(from.point)) : read_slot(Slot(from.maybe));
-    VoidPlace place = **from.in_void;
-    Value marker = Value::make_table(), members = Value::make_table();
-    const Schema schema = void_place_schema(place);
-    for (const Key& key : schema.keys()) members.set(key.name(), read_slot(key.bind(0)));
-    marker.set("find_void", members);
-    return marker;
-  } else if constexpr (std::is_same_v<T, WordOrFile>) {
-    if (from.file->empty()) return Value::make_text(from.words[std::size_t(*from.word)]);
-    Value table = Value::make_table();
-    table.set(from.key, Value::make_text(*from.file));
-    return table;
-  } else if constexpr (std::is_same_v<T, TableList>) {
-    Value list = Value::make_table();
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      const Schema item = from.make_item(i);
-      list.items.push_back(Value::make_table());
-      for (const Key& key : item.keys())
-        if (key.kind == KeyKind::value) list.items.back().set(key.name(), read_slot(key.bind(0)));
-    }
-    return list;
-  } else if constexpr (std::is_same_v<T, NamedTables>) {
-    return table_of(from);
-  } else if constexpr (std::is_same_v<T, TextMap*>) {
-    Value table = Value::make_table();
-    for (const auto& [name, text] : *from) table.set(name, Value::make_text(text));
-    return table;
-  } else if constexpr (std::is_same_v<T, NumberMap*>) {
-    Value table = Value::make_table();
-    for (const auto& [name, number] : *from) table.set(name, Value::make_number(number));
-    return table;
-  } else {
-    return list_of(*from);
-  }
-}
-
 template <typename T>
 std::string expected_as(const Key& key, const T& slot) {
   const std::string range = range_words(key.range);
@@ -431,10 +306,6 @@ std::string describe_expected(const Key& key) {
   if (key.kind == KeyKind::group) return "a table";
   if (key.kind == KeyKind::list) return "a list of tables";
   return std::visit([&](const auto& slot) { return expected_as(key, slot); }, key.bind(0));
-}
-
-Value read_slot(const Slot& slot) {
-  return std::visit([](const auto& from) { return read_as(from); }, slot);
 }
 
 std::optional<Diagnostic> write_slot(const Key& key, const Slot& slot, const Value& value,

@@ -212,6 +212,11 @@ TEST(Devices, AreNamedWhereOneIsUnknown) {
   const Outcome both = run_rubble(run + " --device gl --set device=software");
   EXPECT_EQ(both.exit_code, 1);
   EXPECT_TRUE(holds(both.err, {"--device", "is given beside --set device=software", "one of them"}));
+  for (const char* command : {"run", "settle", "check"}) {
+    const Outcome seeds = run_rubble(std::string(command) + " '" + (folder / "tiny.lua") + "' --seed 1 --set seed=7");
+    EXPECT_EQ(seeds.exit_code, 1) << command;
+    EXPECT_TRUE(holds(seeds.err, {"--seed", "is given beside --set seed=7", "one of them"})) << command;
+  }
 }
 
 // A millionth of a second is too short for any light.

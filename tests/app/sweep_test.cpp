@@ -230,6 +230,9 @@ TEST_F(SweptBatch, ReportShowsEveryRunAndNeedsNothingElse) {
   for (const char* outside : {"http://", "https://", "src=\"/", "@import", "url("})
     EXPECT_EQ(page.find(outside), std::string::npos) << outside << " leads out of the page";
   ASSERT_EQ(run_rubble("report " + (scratch / "whole") + " --out " + (scratch / "r.html")).exit_code, 0);
+  const Outcome taken = run_rubble("report " + (scratch / "whole") + " --out " + (scratch / "whole") + "/index.csv");
+  EXPECT_EQ(taken.exit_code, 1);
+  EXPECT_IN("--out: would replace a file of the batch", taken.err);
   EXPECT_IN("href=\"whole/v4_seed_2/\"", read_file(scratch / "r.html"));
 }
 

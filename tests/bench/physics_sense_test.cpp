@@ -57,7 +57,7 @@ PileState pour_heap(double friction, std::uint64_t seed) {
   world.rest().begin_verification();  // as settling does
   for (int step = 0; step < kLastSteps; ++step) world.step();
   PileState state;
-  for (int i = 0; i < world.size(); ++i) state.pieces.push_back(world.piece(i));
+  state.pieces = world.pieces();
   return state;
 }
 

@@ -18,7 +18,7 @@ using testing::turned;
 
 SceneResult result_of(const World& world) {
   PileState state;
-  for (int i = 0; i < world.size(); ++i) state.pieces.push_back(world.piece(i));
+  state.pieces = world.pieces();
   state.steps = world.steps();
   return {state.steps, state.state_hash()};
 }

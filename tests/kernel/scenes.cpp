@@ -231,7 +231,7 @@ void run(World& world, double seconds) {
 
 std::uint64_t hash_of(const World& world) {
   PileState state;
-  for (int i = 0; i < world.size(); ++i) state.pieces.push_back(world.piece(i));
+  state.pieces = world.pieces();
   return state.state_hash();
 }
 

@@ -301,7 +301,7 @@ TEST(SweepPlan, AHeapHasTheSameBitsWithAnyNumberOfThreads) {
     world.add(pieces);
     testing::run(world, 1);
     PileState state;
-    for (int i = 0; i < world.size(); ++i) state.pieces.push_back(world.piece(i));
+    state.pieces = world.pieces();
     return state.state_hash();
   };
   const std::uint64_t one = drop(1);

@@ -21,6 +21,11 @@ ExitCode write_report(const ReportRequest& request) {
   namespace fs = std::filesystem;
   const std::string path = request.out.empty() ? request.folder + "/report.html" : request.out;
   refuse_recorded_file(path, "--out");
+  for (const char* name : {"batch.json", "index.csv"}) {
+    std::error_code failed;
+    if (fs::equivalent(path, fs::path(request.folder) / name, failed))
+      throw InputError({path, 0, "--out", "would replace a file of the batch", "another name", "", ""});
+  }
   ReportOptions options = request.options;
   const std::string way = fs::proximate(request.folder, fs::absolute(path).parent_path()).string();
   options.way = way == "." ? "" : way + "/";

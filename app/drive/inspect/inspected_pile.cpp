@@ -66,7 +66,7 @@ PileState InspectedPile::all_pieces() const {
 PileState InspectedPile::state() const {
   PileState state;
   for (const PieceType& type : pile_.types) state.types.push_back(type.name);
-  for (int i = 0; i < world_.size(); ++i) state.pieces.push_back(world_.piece(i));
+  state.pieces = world_.pieces();
   state.joints = world_.joints();
   state.steps = world_.steps(), state.simulated = world_.time(), state.lost = world_.lost_count();
   return state;

@@ -26,7 +26,7 @@ def binned(bins, mean):
 
 PANELS = [
     ("keypoints a megapixel", records.mean_keypoints, True),
-    ("true matches with the next frame, a megapixel", records.mean_matches, True),
+    ("true matches a megapixel", records.mean_matches, True),
     ("frames that a model has, %", lambda *of: 100 * records.share_in_model(*of), False),
 ]
 
@@ -49,10 +49,10 @@ def draw(found, title, path):
             place.set_yscale("log")
         place.axvline(0, color="#999999", lw=1)
         place.grid(alpha=0.3)
-    axes[0].legend(fontsize=9)
     axes[0].set_title("COLMAP 3.8, %s, seeds %s" % (title, ", ".join(map(str, seeds))), fontsize=10)
     axes[-1].set_xlabel("metres into the void (0: its entrance), on the way in and on the way out")
-    figure.tight_layout()
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="lower center", ncol=3, fontsize=9)
+    figure.tight_layout(rect=(0, 0.06, 1, 1))
     figure.savefig(path, dpi=90)
 
 

@@ -2,6 +2,7 @@
 // RadianceGrid of lighting/radiance_grid.h. An entry an invocation. Variants: RAYS, as in resolve.frag.glsl.
 #include "frame.glsl"
 #include "air_words.glsl"
+#include "harmonics.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 2) readonly buffer FieldBlock {
@@ -27,14 +28,10 @@ struct Corners {
 };
 
 void harmonics_of(vec3 v, out float y[16]) {
-  float z2 = v.z * v.z;
-  y[0] = 0.2820948, y[1] = 0.4886025 * v.y, y[2] = 0.4886025 * v.z, y[3] = 0.4886025 * v.x;
-  y[4] = 1.0925484 * v.x * v.y, y[5] = 1.0925484 * v.y * v.z, y[6] = 0.3153916 * (3.0 * z2 - 1.0);
-  y[7] = 1.0925484 * v.x * v.z, y[8] = 0.5462742 * (v.x * v.x - v.y * v.y);
-  y[9] = 0.5900436 * v.y * (3.0 * v.x * v.x - v.y * v.y), y[10] = 2.8906114 * v.x * v.y * v.z;
-  y[11] = 0.4570458 * v.y * (5.0 * z2 - 1.0), y[12] = 0.3731763 * v.z * (5.0 * z2 - 3.0);
-  y[13] = 0.4570458 * v.x * (5.0 * z2 - 1.0), y[14] = 1.4453057 * v.z * (v.x * v.x - v.y * v.y);
-  y[15] = 0.5900436 * v.x * (v.x * v.x - 3.0 * v.y * v.y);
+  for (int four = 0; four < 4; ++four) {
+    vec4 row = harmonics_row(four, v);
+    for (int k = 0; k < 4; ++k) y[four * 4 + k] = row[k];
+  }
 }
 int order_of(int t) { return t < 1 ? 0 : t < 4 ? 1 : t < 9 ? 2 : 3; }
 

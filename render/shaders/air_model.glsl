@@ -1,7 +1,7 @@
 // Light in the air before a camera: how much passes up to each distance, and how much is thrown towards the lens on the
 // way. The formulas of media/medium.h, media/air_glow.h and media/near_glow.h, written once in the words of
 // surface_model.glsl and fog_depth.glsl: for lanes of rays by shading/air_trace.h, for the card by air_trace.comp.glsl.
-// After air_medium.glsl, which has further words. Further tables: baked_at(light, point), where light -1 is the radiance,
+// After air_medium.glsl, which has further words, and harmonics.glsl. Further tables: baked_at(light, point), where light -1 is the radiance,
 // near_glow_row(i) and around_row(i).
 
 FN Real4 mix_rows(Real4 a, Real4 b, Real t) {
@@ -190,24 +190,6 @@ FN Real arc_cosine(Real x) {
   p = p * a + 1.5707963050f;
   Real angle = sqrt(1.0f - a) * p;
   return select(x < 0.0f, 3.14159265f - angle, angle);
-}
-
-FN Real4 row_of(Real x, Real y, Real z, Real w) {
-  Real4 row;
-  row.x = x, row.y = y, row.z = z, row.w = w;
-  return row;
-}
-// Spherical harmonics to the third order, four at a time, as harmonics_of().
-FN Real4 harmonics_row(int four, Real3 v) {
-  Real x = v.x, y = v.y, z = v.z, z2 = z * z;
-  if (four == 0) return row_of(real(0.2820948f), 0.4886025f * y, 0.4886025f * z, 0.4886025f * x);
-  if (four == 1)
-    return row_of(1.0925484f * x * y, 1.0925484f * y * z, 0.3153916f * (3.0f * z2 - 1.0f), 1.0925484f * x * z);
-  if (four == 2)
-    return row_of(0.5462742f * (x * x - y * y), 0.5900436f * y * (3.0f * x * x - y * y), 2.8906114f * x * y * z,
-                  0.4570458f * y * (5.0f * z2 - 1.0f));
-  return row_of(0.3731763f * z * (5.0f * z2 - 3.0f), 0.4570458f * x * (5.0f * z2 - 1.0f), 1.4453057f * z * (x * x - y * y),
-                0.5900436f * x * (x * x - 3.0f * y * y));
 }
 
 FN Real add_near_terms(Real sum, int four, Int low, Real part, Real3 direction, Real4 left) {

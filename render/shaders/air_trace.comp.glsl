@@ -27,6 +27,7 @@ vec4 near_glow_row(int i) { return near_glow_rows[i]; }
 vec4 around_row(int i) { return around_rows[i]; }
 
 #include "air_medium.glsl"
+#include "harmonics.glsl"
 #include "air_model.glsl"
 
 void main() {

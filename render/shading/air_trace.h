@@ -29,6 +29,7 @@ struct AirModel {
 #define INOUT(T) T&
 #define SLICES(name) Real(&name)[AirBlock::kMostSlices]
 #include "render/shaders/air_medium.glsl"
+#include "render/shaders/harmonics.glsl"
 #include "render/shaders/air_model.glsl"
 #undef SLICES
 #undef INOUT

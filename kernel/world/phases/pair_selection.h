@@ -36,7 +36,7 @@ class PairSelection {
   const Bodies& bodies_;
   Pairs& pairs_;
   ThreadPool& pool_;
-  // By collider: whether it leaves its enlarged box; of those that do, the box before, and who was not met by it.
+  // By collider: whether it leaves its enlarged box; of those that do, the boxes before and now.
   std::vector<std::uint8_t> leaves_box_;
   std::vector<Aabb> box_before_, box_after_;
   std::vector<std::vector<std::int32_t>> neighbours_;  // of the colliders that leave their box, in turn

@@ -2,6 +2,7 @@
 // outside kernel/.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "kernel/base/parallel.h"
@@ -36,7 +37,7 @@ class Sleep {
  private:
   std::int32_t find_hit(const StepPairs& step, std::int32_t pair) const;
   void wake_changed(const StepPairs& step);
-  void limit_warm_starts(const StepPairs& step);
+  void limit_warm_start(const Body& sleeper, Contact& contact) const;
   float wake_impulse(const Body& body) const;  // a contact's must change by this; unit: N s
   void find_overlapping(const StepPairs& step);
   void count_still_steps(const StepPairs& step);
@@ -68,6 +69,7 @@ class Sleep {
   std::vector<std::uint8_t> listed_;  // by pair, for wake_hit()
   std::vector<std::uint8_t> overlapping_, slept_, disturbed_;  // by body
   std::vector<Vec3f> lost_support_;                            // by body: of sleepers, to awake neighbours
+  std::vector<std::pair<Contact*, std::int32_t>> throwing_;     // contacts that press far too hard on a sleeper, and who it is
   std::vector<std::int32_t> unsettled_;                        // sleepers whose lost_support_ is not zero
 };
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "render/gl/gl_mirror.h"
+#include "render/gl/gl_exchange.h"
 #include "render/media/air_volume.h"
 
 namespace rubble {

@@ -13,7 +13,7 @@
 #include "render/devices/gl/image_tiles.h"
 #include "render/devices/gl/sun_shadow_pass.h"
 #include "render/geometry/ground_map.h"
-#include "render/gl/gl_readback.h"
+#include "render/gl/gl_exchange.h"
 #include "render/gl/shader.h"
 #include "render/materials/textures.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/geometry/scene_tables.h"
-#include "render/gl/gl_mirror.h"
+#include "render/gl/gl_exchange.h"
 
 namespace rubble {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/devices/gl/draw_list.h"
-#include "render/gl/gl_readback.h"
+#include "render/gl/gl_exchange.h"
 #include "render/gl/shader.h"
 #include "render/passes/triangle_raster.h"
 

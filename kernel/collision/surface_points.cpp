@@ -19,6 +19,7 @@ constexpr float kFallback = 0.05F;
 // Axes nearer to the triangle's normal than this are that normal.
 constexpr float kSameCosine = 0.9999F;
 constexpr float kLeastCosine = 0.05F;  // least cosine between an axis and the triangle's normal on its free side
+constexpr float kTouchGap = 1e-3F;  // of two that are moved apart until they touch; unit: m
 constexpr float kAxisAdvantage = 5e-4F;  // another axis is used only if its overlap is smaller by this; unit: m
 
 // A triangle seen from the centre of a piece, turned to the world.
@@ -158,9 +159,18 @@ class SurfaceSearch {
     }
     if (least <= axis.separation + kAxisAdvantage) return;
     // Edge on edge, or a corner that leads.
-    const Vec3f& p = part_.corners.points[find_support(part_.corners, -axis.normal)];
-    points_.push_back({has_point_ ? point_ : p - axis.normal * (0.5F * axis.separation),
-                       axis.normal, axis.separation});
+    if (has_point_ || find_touch(axis)) points_.push_back({point_, axis.normal, axis.separation});
+  }
+
+  // Where the part and the triangle touch first when the part is moved out along the axis. False: nowhere, what leads along the
+  // axis is beside the triangle. The ends of an edge lead alike, so a corner that leads may be metres away from where they touch.
+  bool find_touch(const SurfaceAxis& axis) {
+    GjkCache cache;
+    const Vec3f out = axis.normal * (kTouchGap - axis.separation);
+    const GjkResult gjk = calc_distance(part_.corners, {t_.corners, 3}, -out, 2 * kTouchGap, cache);
+    if (gjk.kind != GjkResult::Kind::separated) return false;
+    point_ = gjk.point_a - axis.normal * (0.5F * axis.separation);
+    return true;
   }
 
   // The axis of least overlap or of the distance. False: out of reach, or from behind.

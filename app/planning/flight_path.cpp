@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/planning/steep_views.h"
 #include "kernel/voids/void_path.h"
 
 namespace rubble {
@@ -161,7 +162,9 @@ Vec3 look_ahead(const std::vector<Vec3>& points, std::size_t i, double ahead) {
 
 // A leg as waypoints, without its first; the last is the user's own, moved to where there is room. What both ends look at,
 // as those of an orbit, the camera looks at in between.
-void append_leg(const std::vector<Vec3>& points, const Waypoint& start, const Waypoint& goal, TrajectorySpec& spec) {
+// ahead: gets whether each of them looks ahead.
+void append_leg(const std::vector<Vec3>& points, const Waypoint& start, const Waypoint& goal, TrajectorySpec& spec,
+                std::vector<bool>& ahead) {
   const bool one_target = start.look_at && goal.look_at && *start.look_at == *goal.look_at;
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (distance(points[i], spec.waypoints.back().position) < 1e-4) continue;
@@ -171,7 +174,8 @@ void append_leg(const std::vector<Vec3>& points, const Waypoint& start, const Wa
     if (one_target) w.look_at = goal.look_at;
     w.position = points[i];
     w.speed = goal.speed;
-    if (!w.look_at && w.rpy_deg == Vec3{}) w.look_at = look_ahead(points, i, kLookAhead);
+    ahead.push_back(!w.look_at && w.rpy_deg == Vec3{});
+    if (ahead.back()) w.look_at = look_ahead(points, i, kLookAhead);
     spec.waypoints.push_back(w);
   }
 }
@@ -181,6 +185,7 @@ void append_leg(const std::vector<Vec3>& points, const Waypoint& start, const Wa
 double plan_around(const PileGeometry& geometry, const PileSpace& space, TrajectorySpec& spec) {
   const LegPlanner planner(geometry, space, spec.radius);
   const std::vector<Waypoint> asked = spec.waypoints;
+  std::vector<bool> ahead;
   double length = 0;
   spec.waypoints.clear();
   spec.interpolation = Interpolation::linear;
@@ -190,13 +195,15 @@ double plan_around(const PileGeometry& geometry, const PileSpace& space, Traject
     if (i == 1) {
       Waypoint start = asked.front();
       start.position = points.front();
-      if (!start.look_at && start.rpy_deg == Vec3{}) start.look_at = look_ahead(points, 0, kLookAhead);
+      ahead.push_back(!start.look_at && start.rpy_deg == Vec3{});
+      if (ahead.back()) start.look_at = look_ahead(points, 0, kLookAhead);
       spec.waypoints.push_back(start);
     }
-    append_leg(points, asked[i - 1], asked[i], spec);
+    append_leg(points, asked[i - 1], asked[i], spec, ahead);
     for (std::size_t k = 0; k + 1 < points.size(); ++k) length += distance(points[k], points[k + 1]);
     here = points.back();
   }
+  turn_steep_views(ahead, spec.waypoints);
   return length;
 }
 

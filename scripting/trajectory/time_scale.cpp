@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kernel/base/portable_math.h"
 
@@ -9,6 +10,10 @@ namespace rubble {
 namespace {
 
 constexpr double kShortest = 1e-9;  // a piece of path that counts as standing still; unit: m
+// An entry of the table within which the path turns by more than this is halved, so often at most.
+constexpr double kFineTurn = 0.01;  // unit: rad
+constexpr int kMostHalvings = 12;
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 double angle_between(const Quat& a, const Quat& b) {
   const Quat d = a.conjugate() * b;
@@ -19,11 +24,49 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return portable::atan2(norm(cross(a, b)), dot(a, b));
 }
 
-// Asked for: one step from node to node. ways[i] leads from node i to node i + 1.
+// From node to node of the path; [i] leads from node i to node i + 1.
 struct Steps {
-  std::vector<Vec3> ways;        // unit: m
-  std::vector<double> turns;     // unit: rad
-  double step = 0;               // unit: s
+  std::vector<Vec3> ways;           // unit: m
+  std::vector<double> turns;        // unit: rad
+  std::vector<double> times, ends;  // that were asked for: how long it takes, when it is over; unit: s
+  std::vector<bool> parts;          // whether it is a part of an entry
+};
+
+struct Node {
+  double time;
+  Pose pose;
+};
+
+class StepMaker {
+ public:
+  // most_turn_rate: unit: rad/s
+  StepMaker(const std::function<Pose(double)>& path, const std::vector<double>& corners, double most_turn_rate, Steps& steps)
+      : path_(path), corners_(corners), most_turn_rate_(most_turn_rate), steps_(steps) {}
+
+  // time: from one to the other. An entry within which the path turns too fast is divided at its corners, and where it turns far:
+  // the turn would be faster in places than the mean over the entry.
+  void add(const Node& from, const Node& to, double time, int halvings = kMostHalvings, bool part = false) {
+    const double turn = angle_between(from.pose.rotation, to.pose.rotation);
+    const auto corner = std::upper_bound(corners_.begin(), corners_.end(), from.time);
+    const bool inside = corner != corners_.end() && *corner < to.time;
+    if (turn > most_turn_rate_ * time && (inside || turn > kFineTurn) && halvings > 0) {
+      const double when = inside ? *corner : from.time + 0.5 * time;
+      const Node middle{when, path_(when)};
+      add(from, middle, when - from.time, halvings - 1, true);
+      add(middle, to, to.time - when, halvings - 1, true);
+      return;
+    }
+    steps_.ways.push_back(to.pose.translation - from.pose.translation);
+    steps_.turns.push_back(turn);
+    steps_.times.push_back(time), steps_.ends.push_back(to.time);
+    steps_.parts.push_back(part);
+  }
+
+ private:
+  const std::function<Pose(double)>& path_;
+  const std::vector<double>& corners_;
+  double most_turn_rate_;
+  Steps& steps_;
 };
 
 // The highest speed on each way, before changes of speed are looked at; unit: m/s.
@@ -31,7 +74,7 @@ std::vector<double> calc_ceilings(const Steps& s, const SpeedLimits& limits) {
   std::vector<double> ceilings;
   for (std::size_t i = 0; i < s.ways.size(); ++i) {
     const double length = norm(s.ways[i]);
-    double time = s.step;
+    double time = s.times[i];
     if (limits.max_speed) time = std::max(time, length / *limits.max_speed);
     if (limits.max_turn_rate_deg)
       time = std::max(time, s.turns[i] * 180 / (portable::kPi * *limits.max_turn_rate_deg));
@@ -69,17 +112,17 @@ void bound_changes(const Steps& s, double most, bool at_rest, std::vector<double
 
 }  // namespace
 
-TimeScale::TimeScale(const std::function<Pose(double)>& path, double duration, double step,
-                     const SpeedLimits& limits, bool at_rest) {
+TimeScale::TimeScale(const std::function<Pose(double)>& path, const std::vector<double>& corners, double duration,
+                     double step, const SpeedLimits& limits, bool at_rest) {
   if (!limits.scales_time() || !(duration > 0)) return;
   const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(duration / step)));
+  const double usual = duration / double(count);
   Steps s;
-  s.step = duration / double(count);
-  Pose before = path(0);
+  StepMaker maker(path, corners, limits.max_turn_rate_deg ? *limits.max_turn_rate_deg * portable::kPi / 180 : kNoLimit, s);
+  Node before{0, path(0)};
   for (std::size_t i = 1; i <= count; ++i) {
-    const Pose here = path(std::min(duration, s.step * double(i)));
-    s.ways.push_back(here.translation - before.translation);
-    s.turns.push_back(angle_between(before.rotation, here.rotation));
+    const Node here{usual * double(i), path(std::min(duration, usual * double(i)))};
+    maker.add(before, here, usual);
     before = here;
   }
   std::vector<double> speeds = calc_ceilings(s, limits);
@@ -87,22 +130,24 @@ TimeScale::TimeScale(const std::function<Pose(double)>& path, double duration, d
     bound_changes(s, *limits.max_acceleration * std::sqrt(0.5), at_rest, speeds);
 
   asked_.push_back(0), new_.push_back(0);
-  for (std::size_t i = 0; i < count; ++i) {
-    double time = s.step;
+  for (std::size_t i = 0; i < s.ways.size(); ++i) {
+    double time = s.times[i];
     const double length = norm(s.ways[i]);
     if (length > kShortest) time = std::max(time, length / speeds[i]);
     if (limits.max_turn_rate_deg)
       time = std::max(time, s.turns[i] * 180 / (portable::kPi * *limits.max_turn_rate_deg));
-    asked_.push_back(s.step * double(i + 1));
+    asked_.push_back(s.ends[i]);
     new_.push_back(new_.back() + time);
   }
   const auto mean = [this](std::size_t i) {
     return (asked_[i + 1] - asked_[i]) / (new_[i + 1] - new_[i]);
   };
   rates_.push_back(mean(0));
-  for (std::size_t i = 1; i < count; ++i)
-    rates_.push_back(2 * mean(i - 1) * mean(i) / (mean(i - 1) + mean(i)));
-  rates_.push_back(mean(count - 1));
+  for (std::size_t i = 1; i < s.ways.size(); ++i) {
+    const double a = mean(i - 1), b = mean(i);
+    rates_.push_back(s.parts[i - 1] || s.parts[i] ? std::min(a, b) : 2 * a * b / (a + b));
+  }
+  rates_.push_back(mean(s.ways.size() - 1));
 }
 
 double TimeScale::when(double asked) const {

@@ -37,9 +37,9 @@ struct AskedTime {
 class TimeScale {
  public:
   TimeScale() = default;  // leaves every time as it is
-  // path: the pose at an asked time from 0 to duration; step: of the table; unit: s. at_rest: with a
-  // max_acceleration, the path starts from rest and comes to rest.
-  TimeScale(const std::function<Pose(double)>& path, double duration, double step,
+  // path: the pose at an asked time from 0 to duration; corners: times where it may change abruptly, ascending; step: of the
+  // table; unit: s. at_rest: with a max_acceleration, the path starts from rest and comes to rest.
+  TimeScale(const std::function<Pose(double)>& path, const std::vector<double>& corners, double duration, double step,
             const SpeedLimits& limits, bool at_rest = false);
 
   double duration(double asked) const { return new_.empty() ? asked : new_.back(); }

@@ -308,7 +308,9 @@ CameraPath::CameraPath(const TrajectorySpec& spec) {
   asked_duration_ = curves_->duration();
   if (spec.duration && asked_duration_ > 0) asked_duration_ = *spec.duration;
   const double stretch = asked_duration_ > 0 ? curves_->duration() / asked_duration_ : 1;
-  scale_ = TimeScale([&](double t) { return curves_->at(t * stretch); }, asked_duration_,
+  std::vector<double> corners = curves_->times();
+  for (double& t : corners) t /= stretch;
+  scale_ = TimeScale([&](double t) { return curves_->at(t * stretch); }, corners, asked_duration_,
                      table_step(asked_duration_, spec.rate_hz), spec.limits, spec.rest_at_ends);
   const bool smooth = spec.limits.max_jerk || spec.rest_at_ends;
   knot_ = spec.smoothing.value_or(smooth ? kUsualSmoothing : 0);

@@ -57,6 +57,18 @@ TEST(Limits, EachIsKept) {
   EXPECT_LT(measure(CameraPath(spec)).acceleration, 2 * 1.1);
 }
 
+// It takes the camera 2 ms to turn round: less than an entry of the table of times.
+TEST(Limits, ATurnThatIsAskedForWithinMillisecondsIsKept) {
+  TrajectorySpec spec =
+      load_text("return { trajectory = { rate_hz = 10, interpolation = 'linear', waypoints = { { position = {0, 0, 1} }, "
+                "{ t = 2, position = {1, 0, 1} }, { t = 2.002, position = {1.001, 0, 1}, rpy_deg = {0, 0, 179} }, "
+                "{ t = 4, position = {2, 0, 1}, rpy_deg = {0, 0, 179} } } } }")
+          .scenario.trajectory;
+  EXPECT_GT(measure(CameraPath(spec), 0.001).turn_rate_deg, 1e4);
+  spec.limits.max_turn_rate_deg = 90;
+  EXPECT_LT(measure(CameraPath(spec), 0.001).turn_rate_deg, 91);
+}
+
 TEST(Limits, AllAtOnceOnTheSamePath) {
   TrajectorySpec spec = hairpin();
   const CameraPath free(spec);

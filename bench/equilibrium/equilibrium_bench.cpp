@@ -64,13 +64,16 @@ ExitCode print_layers(const Item& item, const Request& request) {
   return run.state.settled ? ExitCode::done : ExitCode::did_not_settle;
 }
 
+// The program knows no bars that hold and no bodies of several pieces.
+bool has_balance(const PileState& state) { return state.building.count == 0; }
+
 Record run_one(const Item& item, const Request& request) {
   const Work work = load_work(item.work, item.seed, request.overrides);
   const SettleJob job = make_settle_job(item, work, request);
   const SettleRun run = run_settling(work.pile, job);
   Record record = make_record(work, run);
   add_surface_depth(work.pile, run.state, record);
-  if (!request.pile_only && !request.no_balance)
+  if (!request.pile_only && !request.no_balance && has_balance(run.state))
     add_balance(work, run.state, request.tolerance, record);
   return record;
 }
@@ -87,7 +90,7 @@ Record judge_saved(const Request& request) {
                               "drift_p99_mm", "drift_max_mm", "drift_over_20mm"})
     record.erase(unknown);
   add_surface_depth(saved.work.pile, saved.state, record);
-  if (!request.no_balance) add_balance(saved.work, saved.state, request.tolerance, record);
+  if (!request.no_balance && has_balance(saved.state)) add_balance(saved.work, saved.state, request.tolerance, record);
   return record;
 }
 
@@ -199,7 +202,7 @@ ExitCode run(int argc, char** argv) {
   app.add_option("--pile", request.saved,
                  "Judge the settled pile of this finished run, and print its record");
   app.add_flag("--pile-only", request.pile_only, "Rest, overlaps and time: no drift, no balance");
-  app.add_flag("--no-lp", request.no_balance, "No balance: the linear program is left out");
+  app.add_flag("--no-lp", request.no_balance, "No balance: the linear program is left out, as it is for buildings");
   app.add_option("--tolerance", request.tolerance, "Surfaces nearer than this touch; unit: m")
       ->check(CLI::Range(1e-5, 0.05))
       ->capture_default_str();

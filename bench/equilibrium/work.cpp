@@ -55,6 +55,23 @@ constexpr NamedWork kWorks[] = {
     {"lean_to", "collapse", "scripts/collapse/lean_to.lua", "likewise"},
     {"pancake", "collapse", "scripts/collapse/pancake.lua", "likewise"},
     {"v_shape", "collapse", "scripts/collapse/v_shape.lua", "likewise"},
+    {"blast", "ruins", "scripts/ruins/blast.lua", "a building that comes down"},
+    {"brick_house", "ruins", "scripts/ruins/brick_house.lua", "likewise"},
+    {"bridge_span", "ruins", "scripts/ruins/bridge_span.lua", "likewise"},
+    {"car_park", "ruins", "scripts/ruins/car_park.lua", "likewise"},
+    {"corner_bay", "ruins", "scripts/ruins/corner_bay.lua", "likewise"},
+    {"half_removed", "ruins", "scripts/ruins/half_removed.lua", "likewise"},
+    {"loaded_floor", "ruins", "scripts/ruins/loaded_floor.lua", "likewise"},
+    {"loaded_roof", "ruins", "scripts/ruins/loaded_roof.lua", "likewise"},
+    {"lorry", "ruins", "scripts/ruins/lorry.lua", "likewise"},
+    {"planned_house", "ruins", "scripts/ruins/planned_house.lua", "likewise"},
+    {"precast_deck", "ruins", "scripts/ruins/precast_deck.lua", "likewise"},
+    {"quake", "ruins", "scripts/ruins/quake.lua", "likewise"},
+    {"quake_frame", "ruins", "scripts/ruins/quake_frame.lua", "likewise"},
+    {"row_of_columns", "ruins", "scripts/ruins/row_of_columns.lua", "likewise"},
+    {"sinking", "ruins", "scripts/ruins/sinking.lua", "likewise"},
+    {"soft_ground", "ruins", "scripts/ruins/soft_ground.lua", "likewise"},
+    {"stair_shaft", "ruins", "scripts/ruins/stair_shaft.lua", "likewise"},
 };
 
 bool is_mission_path(const std::string& name) { return fs::path(name).extension() == ".lua"; }

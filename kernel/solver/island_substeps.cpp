@@ -7,18 +7,26 @@ namespace rubble {
 namespace {
 
 // So that impulses keep their bits when they are scaled from one kind to another.
-constexpr bool is_power_of_two(int n) { return n > 0 && (n & (n - 1)) == 0; }
-static_assert(is_power_of_two(kIslandKinds[0].substeps) && is_power_of_two(kIslandKinds[1].substeps));
+constexpr bool are_powers_of_two() {
+  for (const IslandKind& kind : kIslandKinds)
+    if (kind.substeps <= 0 || (kind.substeps & (kind.substeps - 1)) != 0) return false;
+  return true;
+}
+static_assert(are_powers_of_two());
 
 }  // namespace
 
 int IslandSubsteps::kind_of_island(std::int32_t lowest) const {
-  if (tied_[std::size_t(lowest)] != 0) return kHeap;
+  const std::uint8_t bonds = bonds_[std::size_t(lowest)];
+  if ((bonds & kLink) != 0) return kHeap;
+  if ((bonds & kTie) != 0) return kTied;
   const Island& island = islands_.with_lowest(lowest);
   const auto fits = [&island](const IslandKind& kind) {
     return island.height >= kind.height && island.contacts <= kind.contacts * island.height;
   };
-  return int(std::find_if(std::begin(kIslandKinds), std::end(kIslandKinds), fits) - std::begin(kIslandKinds));
+  const IslandKind* const end = std::begin(kIslandKinds) + kTied;
+  const IslandKind* const found = std::find_if(std::begin(kIslandKinds), end, fits);
+  return found == end ? kHeap : int(found - std::begin(kIslandKinds));
 }
 
 // What split() asks of contacts and bodies, in one place: these lie far apart.
@@ -31,11 +39,11 @@ void IslandSubsteps::note_ends(const std::vector<Body>& bodies, const std::vecto
       const std::int32_t index = order[std::size_t(i)];
       const Contact& c = contacts[std::size_t(index)];
       Ends& ends = ends_[std::size_t(i)];
-      ends = {still, still, std::size_t(index) >= ties};
+      ends = {still, still, std::size_t(index) >= ties ? kTie : kNone};
       const auto note = [&](std::int32_t body, std::int32_t& number) {
         if (body == kGround || !bodies[std::size_t(body)].awake) return;
         number = body;
-        ends.tied = ends.tied || bodies[std::size_t(body)].tree >= 0;
+        if (bodies[std::size_t(body)].tree >= 0) ends.bonds |= kLink;
       };
       note(c.body_a, ends.a), note(c.body_b, ends.b);
     }
@@ -49,9 +57,9 @@ bool IslandSubsteps::split(const std::vector<Body>& bodies, const std::vector<Co
   islands_.begin(bodies.size());
   for (const Ends& ends : ends_) islands_.add(ends.a, ends.b);
   islands_.finish();
-  tied_.assign(bodies.size() + 1, 0);
+  bonds_.assign(bodies.size() + 1, kNone);
   for (const Ends& ends : ends_) {
-    if (ends.tied) tied_[std::size_t(islands_.lowest_of(ends.a != still ? ends.a : ends.b))] = 1;
+    if (ends.bonds != kNone) bonds_[std::size_t(islands_.lowest_of(ends.a != still ? ends.a : ends.b))] |= ends.bonds;
   }
   // The lowest number of an island comes first.
   kinds_.assign(bodies.size() + 1, std::uint8_t(kHeap));

@@ -83,13 +83,15 @@ TEST(IslandSubsteps, WideIslandsHaveFewer) {
   EXPECT_EQ(scene.split().kind_of(column), kHeap);
 }
 
-TEST(IslandSubsteps, WhatHasLinksOfTreesOrTiesIsAHeap) {
+TEST(IslandSubsteps, WhatHasTiesIsAKindOfItsOwnAndWithLinksOfTreesAHeap) {
   Bodies scene;
   const std::int32_t column = scene.add_column(12);
   EXPECT_EQ(scene.split(12).kind_of(column), 0);
-  EXPECT_EQ(scene.split(11).kind_of(column), kHeap);
+  EXPECT_EQ(scene.split(11).kind_of(column), IslandSubsteps::kTied);
+  EXPECT_EQ(scene.split(11).contacts(IslandSubsteps::kTied).size(), 12U);
   scene.bodies.back().tree = 0;
   EXPECT_EQ(scene.split().kind_of(column), kHeap);
+  EXPECT_EQ(scene.split(11).kind_of(column), kHeap);
 }
 
 TEST(IslandSubsteps, AreJoinedThroughWhatMovesOnly) {

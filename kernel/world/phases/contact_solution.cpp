@@ -81,7 +81,8 @@ void ContactSolution::sort_by_height(StepPairs& step) {
   for (std::size_t i = 0; i < step.active.size(); ++i) step.active[i] = keys_[i].index;
 }
 
-// Contacts keep the impulses of a heap's substep, since an island may be part of a heap in the next step.
+// Contacts keep the impulses of a heap's substep, since an island may be part of a heap in the next step. So does what a tie may
+// bear in one.
 void ContactSolution::solve_finer(int kind, const SolverSettings& settings, StepMotions& motions) {
   const std::vector<std::int32_t>& order = islands_.contacts(kind);
   if (order.empty()) return;
@@ -92,6 +93,7 @@ void ContactSolution::solve_finer(int kind, const SolverSettings& settings, Step
       for (int i = 0; i < contact.count; ++i) contact.points[i].normal_impulse *= factor;
       contact.friction_impulse *= factor;
       contact.twist_impulse *= factor;
+      if (std::size_t(index) >= data_.pairs.size()) contact.most *= factor, contact.highest *= factor;
     }
   };
   SolverSettings finer = settings;

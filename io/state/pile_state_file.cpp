@@ -18,6 +18,7 @@ constexpr double kFarthest = 1e6;  // of a piece from the origin; unit: m
 constexpr std::size_t kPieceSize = 2 * 4 + 14 * 8 + 1;   // unit: byte
 constexpr std::size_t kJointSize = 2 * 4 + 1 + 19 * 8;  // unit: byte
 constexpr std::size_t kTieSize = 2 * 4 + 10 * 8;         // unit: byte
+constexpr std::size_t kLoadSize = 2 * 4 + 6 * 4;         // unit: byte
 
 void put_vector(std::string& bytes, const Vec3& v) {
   for (int i = 0; i < 3; ++i) put(bytes, v[i]);
@@ -66,6 +67,14 @@ void put_building(std::string& bytes, const BuildingState& building) {
     put_vector(bytes, tie.anchor_a);
     put_vector(bytes, tie.anchor_b);
     for (const double number : {tie.length, tie.strength, tie.stretch, tie.bending}) put(bytes, number);
+  }
+  for (std::size_t i = 0; i < building.ties.size(); ++i) put(bytes, i < building.tie_forces.size() ? building.tie_forces[i] : 0.0F);
+  put(bytes, static_cast<std::uint32_t>(building.loads.size()));
+  for (const ContactLoad& load : building.loads) {
+    put(bytes, load.piece);
+    put(bytes, load.other);
+    for (const Vec3f* v : {&load.point, &load.force})
+      for (const float number : {v->x, v->y, v->z}) put(bytes, number);
   }
 }
 
@@ -196,6 +205,33 @@ TieState read_tie(SealedReader& reader, std::uint64_t piece_count) {
   return tie;
 }
 
+ContactLoad read_load(SealedReader& reader, std::uint64_t piece_count) {
+  ContactLoad load;
+  load.piece = reader.number<std::int32_t>();
+  load.other = reader.number<std::int32_t>();
+  for (Vec3f* v : {&load.point, &load.force})
+    for (float* number : {&v->x, &v->y, &v->z}) *number = reader.number<float>();
+  const Vec3f &p = load.point, &f = load.force;
+  check_finite(reader, {p.x, p.y, p.z, f.x, f.y, f.z}, "a load");
+  const bool pieces = load.piece >= 0 && std::uint64_t(load.piece) < piece_count && load.other >= -1 &&
+                      (load.other < 0 || std::uint64_t(load.other) < piece_count) && load.piece != load.other;
+  if (!pieces) reader.fail("a load is on a piece that the pile does not have");
+  return load;
+}
+
+// What contacts and ties carry: since version 4.
+void read_loads(SealedReader& reader, std::uint64_t piece_count, BuildingState& building) {
+  for (std::size_t i = 0; i < building.ties.size(); ++i) {
+    building.tie_forces.push_back(reader.number<float>());
+    check_finite(reader, {building.tie_forces.back()}, "a tie");
+  }
+  const auto loads = reader.number<std::uint32_t>();
+  if (loads != reader.left() / kLoadSize || reader.left() % kLoadSize != 0) {
+    reader.fail("the pile state does not hold as many loads as it says");
+  }
+  for (std::uint32_t i = 0; i < loads; ++i) building.loads.push_back(read_load(reader, piece_count));
+}
+
 BuildingState read_building(SealedReader& reader, std::uint64_t piece_count) {
   BuildingState building;
   building.first = reader.number<std::int32_t>();
@@ -213,10 +249,9 @@ BuildingState read_building(SealedReader& reader, std::uint64_t piece_count) {
     }
   }
   const auto ties = reader.number<std::uint32_t>();
-  if (ties != reader.left() / kTieSize || reader.left() % kTieSize != 0) {
-    reader.fail("the pile state does not hold as many ties as it says");
-  }
+  if (ties > reader.left() / kTieSize) reader.fail("the pile state does not hold as many ties as it says");
   for (std::uint32_t i = 0; i < ties; ++i) building.ties.push_back(read_tie(reader, piece_count));
+  if (reader.left() > 0) read_loads(reader, piece_count, building);
   return building;
 }
 

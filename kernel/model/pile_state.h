@@ -51,13 +51,23 @@ struct TieState {
   double bending = 0;       // moment by which bent bars damp the rotation of the pieces; unit: N m; >= 0
 };
 
-// The connections that remain in a collapsed building. They are needed if its pieces can move again.
+// What a contact carries at one of its points at rest. Where pieces are wedged, it does not follow from their poses.
+struct ContactLoad {
+  std::int32_t piece = 0, other = -1;  // other: -1 is the ground
+  Vec3f point;                         // in the world; unit: m
+  Vec3f force;                         // on the piece; unit: N
+};
+
+// The connections that remain in a collapsed building, and what they carry. They are needed if its pieces can move again.
 struct BuildingState {
   std::int32_t first = 0, count = 0;  // its pieces, after the placed ones; count 0: no building
   // Groups of two or more pieces that move as one rigid body, ascending. All pieces of a group have the same
   // status. Pieces in no group move alone.
   std::vector<std::vector<std::int32_t>> bodies;
   std::vector<TieState> ties;  // unbroken, in the order of their creation
+  // Of all contacts of the pile, and of the ties in their order (unit: N). Empty: not known.
+  std::vector<ContactLoad> loads;
+  std::vector<float> tie_forces;
 };
 
 // The deepest overlap of two pieces, or of a piece and the ground.

@@ -23,6 +23,8 @@ BuildingState describe_building(const World& world, int first, int count) {
     state.bodies.emplace_back(bound.begin(), bound.end());
   }
   state.ties = world.structures().ties();
+  for (int i = 0; i < world.structures().tie_count(); ++i) state.tie_forces.push_back(float(world.structures().tie_force(i)));
+  state.loads = world.structures().contact_loads();
   return state;
 }
 

@@ -40,10 +40,7 @@ ContactImpulse on_the_other(ContactImpulse c) {
   return c;
 }
 
-}  // namespace
-
-std::vector<ContactImpulse> World::contacts() const {
-  const WorldData& data = impl_->data;
+std::vector<ContactImpulse> find_impulses(const WorldData& data) {
   std::vector<ContactImpulse> result;
   for (std::size_t i = 0; i < data.pairs.size(); ++i) {
     if (!data.pairs[i].live || !(data.contacts[i].pressed > 0)) continue;
@@ -52,6 +49,17 @@ std::vector<ContactImpulse> World::contacts() const {
     });
   }
   return result;
+}
+
+}  // namespace
+
+std::vector<ContactImpulse> World::contacts() const { return find_impulses(impl_->data); }
+
+std::vector<ContactLoad> World::Structures::contact_loads() const {
+  std::vector<ContactLoad> loads;
+  for (const ContactImpulse& c : find_impulses(impl_->data))
+    loads.push_back({c.piece, c.other, Vec3f(c.point), Vec3f(c.impulse * (1 / impl_->settings.options.step))});
+  return loads;
 }
 
 std::vector<ContactImpulse> World::Structures::contact_impulses() const {

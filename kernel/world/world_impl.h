@@ -57,6 +57,7 @@ struct World::Impl {
   // world_step.cpp
   void begin_stage(StepStage stage);
   void find_contacts();
+  void put_loads(const BuildingState& building);  // world_loads.cpp; on the contacts that were found last
   void solve();
   void note_touching();
   void lose(int body);

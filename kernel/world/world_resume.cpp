@@ -121,6 +121,7 @@ void World::lay(const Pile& pile, const PileState& state, bool fixed) {
   for (Tie& tie : w.data.ties) tie.state.stretch = kEndlessStretch;
   const bool sleeping = w.settings.options.sleeping;
   w.settings.options.sleeping = false;
+  if (!state.building.loads.empty()) w.find_contacts(), w.put_loads(state.building);
   while (time() < kLoadingTime) step();
   w.settings.options.sleeping = sleeping;
   rest().put_all_to_sleep();

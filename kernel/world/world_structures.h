@@ -27,6 +27,7 @@ class World::Structures {
   double tie_energy() const;           // absorbed by yielding ties so far; unit: J
   // In the last step, by its index in ties(); unit: N.
   double tie_force(int index) const;
+  std::vector<ContactLoad> contact_loads() const;  // of all contacts in the last step
 
   // Called in each step after the contacts were solved and before anything moves. It returns true if it has split a
   // body. Contacts are then found and solved again, at most four times.

@@ -1,4 +1,5 @@
 #include "io/state/pile_state_file.h"
+#include "io/base/sealed_file.h"
 
 #include <gtest/gtest.h>
 
@@ -136,8 +137,35 @@ TEST(PileStateFile, KeepsWhatHoldsTogetherOfABuilding) {
   EXPECT_EQ(read_text(folder / "a"), read_text(folder / "b"));
   // A file without a building is that of the version before, byte for byte.
   EXPECT_EQ(read_text(folder / "without")[8], 2);
-  EXPECT_EQ(read_text(folder / "a")[8], 3);
+  EXPECT_EQ(read_text(folder / "a")[8], 4);
   EXPECT_EQ(load_pile_state(folder / "without").building.count, 0);
+}
+
+TEST(PileStateFile, KeepsWhatABuildingCarriesAndReadsThoseOfBefore) {
+  ScratchFolder folder;
+  PileState state = make_state(20);
+  state.building = make_building();
+  state.building.tie_forces = {12.5F, 0};
+  state.building.loads = {{4, -1, {1, 2, 3}, {0, 0, 50}}, {5, 19, {-1, 0.5F, 2}, {3, -4, 12}}};
+  save_pile_state(state, folder / "a");
+  const BuildingState loaded = load_pile_state(folder / "a").building;
+  EXPECT_EQ(loaded.tie_forces, state.building.tie_forces);
+  ASSERT_EQ(loaded.loads.size(), 2u);
+  EXPECT_EQ(loaded.loads[0].other, -1);
+  EXPECT_EQ(loaded.loads[1].piece, 5);
+  EXPECT_EQ(loaded.loads[1].other, 19);
+  EXPECT_EQ(loaded.loads[1].point.y, 0.5F);
+  EXPECT_EQ(loaded.loads[1].force.z, 12.0F);
+  // Version 3 ends with the ties.
+  SealedKind kind{"RUBPILE\n", 4, "pile state", "", "", 2};
+  std::string content = load_sealed(kind, folder / "a");
+  content.resize(content.size() - (2 * 4 + 4 + 2 * 32));
+  kind.version = 3;
+  save_sealed(kind, content, folder / "before");
+  const BuildingState before = load_pile_state(folder / "before").building;
+  EXPECT_EQ(before.ties.size(), 2u);
+  EXPECT_TRUE(before.loads.empty());
+  EXPECT_TRUE(before.tie_forces.empty());
 }
 
 TEST(PileStateFile, RefusesABuildingThatCannotBe) {
@@ -160,6 +188,10 @@ TEST(PileStateFile, RefusesABuildingThatCannotBe) {
   expect_in(error_with([](BuildingState& b) { b.ties[0].piece_b = 3; }), "a tie holds a piece");
   expect_in(error_with([](BuildingState& b) { b.ties[0].length = 0; }), "out of range");
   expect_in(error_with([](BuildingState& b) { b.ties[1].anchor_b.x = std::nan(""); }), "not finite");
+  expect_in(error_with([](BuildingState& b) { b.tie_forces = {0, std::nanf("")}; }), "not finite");
+  expect_in(error_with([](BuildingState& b) { b.loads = {{20, -1, {}, {}}}; }), "a load is on a piece");
+  expect_in(error_with([](BuildingState& b) { b.loads = {{3, 3, {}, {}}}; }), "a load is on a piece");
+  expect_in(error_with([](BuildingState& b) { b.loads = {{3, -1, {}, {0, 0, std::nanf("")}}}; }), "not finite");
 }
 
 TEST(PileStateFile, IsTheSameFileForTheSameStateAndAnotherForAnother) {

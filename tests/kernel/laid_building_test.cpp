@@ -88,6 +88,38 @@ TEST(LaidBuilding, ATieThatIsNotLaidLetsItFall) {
   EXPECT_GT(moved(world, r.state, 2), 0.5);
 }
 
+// A block of 20 kg between two posts: nothing but the force that they press it with holds it, and no pose says how large that is.
+TEST(LaidBuilding, WhatIsWedgedStaysByTheLoadsThatTheStateHas) {
+  Ruin r;
+  r.pile.types = {make_box({0.2, 0.2, 0.2}, 2500), make_box({0.2, 0.4, 3}, 2400)};
+  for (PieceType& type : r.pile.types) type.friction = 0.15;
+  r.pile.building.storeys = 1;
+  for (const double x : {-0.2, 0.0, 0.2}) {
+    PieceState piece;
+    piece.type = x == 0 ? 0 : 1, piece.layer = -1;
+    piece.status = x == 0 ? PieceStatus::resting : PieceStatus::fixed;
+    piece.world_from_body.translation = {x, 0, x == 0 ? 2.0 : 1.5};
+    r.state.pieces.push_back(piece);
+  }
+  r.state.building.first = 0, r.state.building.count = 3;
+  r.state.settled = true;
+  for (const float side : {-1.0F, 1.0F})
+    for (const float y : {-0.1F, 0.1F})
+      for (const float z : {1.9F, 2.1F})
+        r.state.building.loads.push_back({1, side < 0 ? 0 : 2, {0.1F * side, y, z}, {-200 * side, 0, float(20 * kGravity) / 8}});
+  const auto fall = [&r] {
+    World world(r.pile.types);
+    world.lay(r.pile, r.state);
+    world.set_step(1.0 / 240, 4);
+    world.set_sleeping(false);
+    for (int i = 0; i < 240; ++i) world.step();
+    return moved(world, r.state, 1);
+  };
+  EXPECT_LT(fall(), 1e-3);
+  r.state.building.loads.clear();
+  EXPECT_GT(fall(), 0.5);
+}
+
 TEST(LaidBuilding, WhatHoldsTogetherMovesAsOne) {
   const Ruin r = make_ruin();
   World world(r.pile.types);

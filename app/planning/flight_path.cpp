@@ -161,8 +161,7 @@ Vec3 look_ahead(const std::vector<Vec3>& points, std::size_t i, double ahead) {
 }
 
 // A leg as waypoints, without its first; the last is the user's own, moved to where there is room. What both ends look at,
-// as those of an orbit, the camera looks at in between.
-// ahead: gets whether each of them looks ahead.
+// as those of an orbit, the camera looks at in between. ahead: gets, for each of the new waypoints, whether it looks ahead.
 void append_leg(const std::vector<Vec3>& points, const Waypoint& start, const Waypoint& goal, TrajectorySpec& spec,
                 std::vector<bool>& ahead) {
   const bool one_target = start.look_at && goal.look_at && *start.look_at == *goal.look_at;

@@ -64,7 +64,7 @@ ExitCode print_layers(const Item& item, const Request& request) {
   return run.state.settled ? ExitCode::done : ExitCode::did_not_settle;
 }
 
-// The program knows no bars that hold and no bodies of several pieces.
+// The linear program knows no bars that hold and no bodies of several pieces.
 bool has_balance(const PileState& state) { return state.building.count == 0; }
 
 Record run_one(const Item& item, const Request& request) {

@@ -7,8 +7,8 @@
 namespace rubble {
 namespace {
 
-// A load goes to the point of a contact of its two pieces that is nearest; each point farther along the normal of the contact by
-// the sine between this and the load counts as so much farther away. unit: m
+// A load goes to the nearest point of the contacts of its two pieces. Where the load is square to the normal of the contact, the
+// point counts as so much farther away. unit: m
 constexpr double kAskew = 0.05;
 
 using PieceNumbers = std::pair<std::int32_t, std::int32_t>;  // ascending; the ground is -1
@@ -57,7 +57,8 @@ void World::Impl::put_loads(const BuildingState& building) {
     const LoadedPoint* best = nullptr;
     double nearest = 0;
     for (auto p = range.first; p != range.second; ++p) {
-      const double away = distance(p->at, Vec3(load.point)) + kAskew * (1 - dot(p->normal, force) / std::max(strength, 1e-12));
+      const double cosine = strength > 0 ? dot(p->normal, force) / strength : 1;
+      const double away = distance(p->at, Vec3(load.point)) + kAskew * (1 - cosine);
       if (!best || away < nearest) best = &*p, nearest = away;
     }
     if (!best) continue;

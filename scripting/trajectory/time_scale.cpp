@@ -13,6 +13,7 @@ constexpr double kShortest = 1e-9;  // a piece of path that counts as standing s
 // An entry of the table within which the path turns by more than this is halved, so often at most.
 constexpr double kFineTurn = 0.01;  // unit: rad
 constexpr int kMostHalvings = 12;
+constexpr double kLeastPart = 1e-6;  // of an entry: a corner nearer to an end of it is that end
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 double angle_between(const Quat& a, const Quat& b) {
@@ -47,8 +48,8 @@ class StepMaker {
   // the turn would be faster in places than the mean over the entry.
   void add(const Node& from, const Node& to, double time, int halvings = kMostHalvings, bool part = false) {
     const double turn = angle_between(from.pose.rotation, to.pose.rotation);
-    const auto corner = std::upper_bound(corners_.begin(), corners_.end(), from.time);
-    const bool inside = corner != corners_.end() && *corner < to.time;
+    const auto corner = std::upper_bound(corners_.begin(), corners_.end(), from.time + kLeastPart * time);
+    const bool inside = corner != corners_.end() && *corner < to.time - kLeastPart * time;
     if (turn > most_turn_rate_ * time && (inside || turn > kFineTurn) && halvings > 0) {
       const double when = inside ? *corner : from.time + 0.5 * time;
       const Node middle{when, path_(when)};

@@ -38,16 +38,14 @@ TEST(SurfacePoints, LieWhereTheSurfaceIs) {
     std::vector<Vec3f> corners;
     for (const Vec3f& p : beam.parts[0].corners) corners.push_back(rotation * p);
     // Lowered until it would be up to 15 mm too low over the top.
-    double low = -2, high = 2;
     const Vec3 beside{random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0};
     const auto holds_top = [&](double z) {
       const Vec3 local = m.transposed() * (-(beside + Vec3{0, 0, z}));
       return std::abs(local.x) < 1.5 && std::abs(local.y) < 0.15 && std::abs(local.z) < 0.1;
     };
-    high = 0;
-    while (holds_top(high) && high < 2) high += 0.001;
-    low = high - random.uniform(0, 0.015);
-    const Vec3 centre = beside + Vec3{0, 0, low};
+    double height = 0;
+    while (holds_top(height)) height += 0.001;
+    const Vec3 centre = beside + Vec3{0, 0, height - random.uniform(0, 0.015)};
     Aabb box{centre, centre};
     for (const Vec3f& p : corners) box.min = min(box.min, centre + Vec3(p)), box.max = max(box.max, centre + Vec3(p));
     std::vector<SurfaceGap> points;

@@ -69,6 +69,23 @@ TEST(Limits, ATurnThatIsAskedForWithinMillisecondsIsKept) {
   EXPECT_LT(measure(CameraPath(spec), 0.001).turn_rate_deg, 91);
 }
 
+// Corners of the path and entries of the table that are the same but for rounding.
+TEST(Limits, AFastTurnAtTheEndOfAnyDurationHasAnEnd) {
+  for (int i = 1; i <= 300; ++i) {
+    TrajectorySpec spec = hairpin();
+    spec.interpolation = Interpolation::linear;
+    spec.waypoints.back().rpy_deg = {0, 0, 0};
+    spec.duration = 0.1 + i / 37.0;
+    spec.limits.max_turn_rate_deg = 45;
+    const CameraPath path(spec);
+    for (const double t : {path.duration(), path.duration() - 1e-9}) {
+      const Pose end = path.at(t);
+      EXPECT_LT(distance(end.translation, spec.waypoints.back().position), 1e-6) << i;
+      EXPECT_GT(std::abs(end.rotation.w), 1 - 1e-6) << i;
+    }
+  }
+}
+
 TEST(Limits, AllAtOnceOnTheSamePath) {
   TrajectorySpec spec = hairpin();
   const CameraPath free(spec);

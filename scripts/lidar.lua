@@ -1,8 +1,10 @@
 -- LiDARs on the rig of a camera: a spinning one on top, a non-repeating one in front, a 2-D scanner low.
--- docs/reference/lidar.md says what each key does.
+-- docs/reference/lidar.md says what each key does. The ground is as rough as a gravel yard: on a plane, scans look alike
+-- from everywhere.
 return rubble.mission {
   seed = 3,
-  pile = { layers = 1, pieces_per_layer = 40, spawn_position = { 0, 0, 2.5 }, spawn_bounds = { 4, 4, 3 } },
+  pile = { layers = 1, pieces_per_layer = 40, spawn_position = { 0, 0, 2.5 }, spawn_bounds = { 4, 4, 3 },
+           terrain = rubble.terrain.rough { class = "C", level = 3, length = 40, width = 40 } },
   camera = { width = 160, height = 120, fov_deg = 80 },
   lidars = {
     top = { model = "vlp16", position = { 0, 0, 0.15 }, returns = "dual" },

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Writes the missions of Rubble-50, their suite and the table of docs/explanation/rubble50.md.
-usage: tools/rubble50.py [ROOT]    ROOT: of the tree; default this one"""
+usage: tools/rubble50.py [ROOT]"""
+import argparse
 import json
 import pathlib
-import sys
 
 STRUCTURES = ["heap", "lean_to", "cantilever", "v_shape", "a_frame", "pancake", "inclined", "lean_over", "culvert", "curtain"]
 CONDITIONS = ["clear", "dark", "smoke", "dust", "wet"]
@@ -61,7 +61,10 @@ def write_table(root):
 
 
 def main():
-    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent)
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("root", nargs="?", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent,
+                        metavar="ROOT", help="of the tree (default: this one)")
+    root = parser.parse_args().root
     (root / "scripts/rubble50").mkdir(parents=True, exist_ok=True)
     write_missions(root / "scripts/rubble50")
     write_table(root)

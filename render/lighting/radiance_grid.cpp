@@ -5,6 +5,8 @@
 #include <cstring>
 
 #include "kernel/base/portable_math.h"
+#include "kernel/base/quick_math.h"
+#include "render/lighting/light_packing.h"
 
 namespace rubble {
 
@@ -83,6 +85,18 @@ AirGrid::Corners RadianceGrid::corners(const Vec3f& point, const std::vector<std
   return out;
 }
 
+float factor_in_stops(const std::array<float, 8>& luminances, const std::array<float, 8>& weights) {
+  constexpr float kLeast = 1.0f / 4096;  // of the brightest: what is darker counts as so bright
+  const float most = *std::max_element(luminances.begin(), luminances.end());
+  if (most <= 0) return 1;
+  float mean = 0, stops = 0;
+  for (std::size_t k = 0; k < 8; ++k) {
+    mean += weights[k] * luminances[k];
+    stops += weights[k] * quick::log2(std::max(luminances[k] / most, kLeast));
+  }
+  return mean > 0 ? std::min(most * quick::exp2(stops) / mean, 1.0f) : 1.0f;
+}
+
 // The first terms; the others are zero.
 template <std::size_t terms>
 RadianceTerms blend_first(const std::vector<RadianceTerms>& grid, const AirGrid::Corners& corners) {
@@ -107,11 +121,36 @@ RadianceTerms blend(const std::vector<RadianceTerms>& grid, const AirGrid::Corne
   return blend_first<kHarmonics>(grid, corners);
 }
 
+namespace {
+
+float factor_of(const std::vector<RadianceTerms>& grid, const AirGrid::Corners& corners) {
+  std::array<float, 8> luminances{};
+  for (std::size_t k = 0; k < 8; ++k) luminances[k] = luminance(grid[corners.at[k]][0]);
+  return factor_in_stops(luminances, corners.weight);
+}
+
+}  // namespace
+
+RadianceTerms blend_in_stops(const std::vector<RadianceTerms>& grid, const AirGrid::Corners& corners) {
+  RadianceTerms out = blend(grid, corners);
+  const float factor = factor_of(grid, corners);
+  for (Vec3f& term : out) term *= factor;
+  return out;
+}
+
+RadianceTerms RadianceGrid::between(const AirGrid::Corners& corners) const {
+  RadianceTerms out = blend_in_stops(terms, corners);
+  if (ends_of_lamp.empty()) return out;
+  const RadianceTerms more = blend(ends_of_lamp, corners);
+  for (std::size_t t = 0; t < kHarmonics; ++t) out[t] += more[t];
+  return out;
+}
+
 // Next to the box what the border's nearest sees; farther away the open surroundings, in which the box with its fog is
 // seen as four discs that have the area that it shows.
 RadianceTerms RadianceGrid::at(const Vec3f& point) const {
   const Vec3f near = grid.nearest(point);
-  RadianceTerms out = blend(terms, corners(near, stand_in));
+  RadianceTerms out = between(corners(near, stand_in));
   const float off = norm(point - near);
   if (off <= 0) return out;
   const Vec3f size = grid.length();
@@ -141,7 +180,7 @@ void RadianceGrid::add_disc(const Vec3f& point, int quarter, float share, Radian
   // Integrals over the disc of Legendre's polynomials.
   const float disc[kOrders] = {1 - edge, (1 - e2) / 2, edge * (1 - e2) / 2, (1 - e2) * (5 * e2 - 1) / 8};
   const Harmonics y = harmonics_of(direction);
-  const RadianceTerms there = blend(terms, corners(point + way * enters, stand_in));
+  const RadianceTerms there = between(corners(point + way * enters, stand_in));
   Vec3f instead;
   for (std::size_t t = 0; t < kHarmonics; ++t) instead += (there[t] - open[t]) * y[t];
   for (std::size_t t = 0; t < kHarmonics; ++t)
@@ -170,8 +209,9 @@ Vec3f illuminance_of(const RadianceTerms& terms, const Vec3f& normal) {
 }
 
 // What the cosine asks for is in the first nine terms.
-Vec3f illuminance_between(const std::vector<RadianceTerms>& grid, const AirGrid::Corners& corners, const Vec3f& normal) {
-  return illuminance_of(blend_first<9>(grid, corners), normal);
+Vec3f illuminance_between(const std::vector<RadianceTerms>& grid, const AirGrid::Corners& corners, const Vec3f& normal,
+                          bool in_stops) {
+  return illuminance_of(blend_first<9>(grid, corners), normal) * (in_stops ? factor_of(grid, corners) : 1.0f);
 }
 
 }  // namespace rubble

@@ -43,13 +43,19 @@ struct SeenCorners {
 // One function of direction, of each colour; unit: kcd/m2 times the norm of harmonics_of().
 using RadianceTerms = std::array<Vec3f, kHarmonics>;
 
-// Between the points of a grid.
+// What the mean between lights is multiplied by, so that it lies between them in stops: light falls by the same factor from
+// one metre to the next where it comes into a void from outside. A mean would let daylight glow a whole cell deep.
+float factor_in_stops(const std::array<float, 8>& luminances, const std::array<float, 8>& weights);
+
+// Between the points of a grid: the mean, and what lies between them in stops.
 RadianceTerms blend(const std::vector<RadianceTerms>& grid, const AirGrid::Corners& corners);
+RadianceTerms blend_in_stops(const std::vector<RadianceTerms>& grid, const AirGrid::Corners& corners);
 
 struct RadianceGrid {
   AirGrid grid;
   SeenCorners seen;
-  std::vector<RadianceTerms> terms;  // of each point: what arrives from each direction
+  std::vector<RadianceTerms> terms;  // of each point: what arrives from each direction; between points in stops
+  std::vector<RadianceTerms> ends_of_lamp;  // what arrives of a lamp's light by way of surfaces, besides; empty: none
   // Likewise, what the air has scattered of a lamp's light, but for what goes nearly straight on; empty: none.
   std::vector<RadianceTerms> of_lamp;
   // Of each point, whose light stands for it at places that see none of the corners about them: of all, and of the lamp.
@@ -62,6 +68,7 @@ struct RadianceGrid {
 
  private:
   AirGrid::Corners corners(const Vec3f& point, const std::vector<std::uint32_t>& stands_in) const;
+  RadianceTerms between(const AirGrid::Corners& corners) const;
   void add_disc(const Vec3f& point, int quarter, float share, RadianceTerms& out) const;
 };
 
@@ -69,7 +76,8 @@ struct RadianceGrid {
 std::array<Vec3f, kOrders> orders_towards(const RadianceTerms& terms, const Vec3f& direction);
 // Illuminance on a surface of this normal, at least 0; unit: klx
 Vec3f illuminance_of(const RadianceTerms& terms, const Vec3f& normal);
-// The same between the points of a grid.
-Vec3f illuminance_between(const std::vector<RadianceTerms>& grid, const AirGrid::Corners& corners, const Vec3f& normal);
+// The same between the points of a grid, in stops or not.
+Vec3f illuminance_between(const std::vector<RadianceTerms>& grid, const AirGrid::Corners& corners, const Vec3f& normal,
+                          bool in_stops);
 
 }  // namespace rubble

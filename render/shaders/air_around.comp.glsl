@@ -9,13 +9,14 @@ layout(std430, binding = 2) readonly buffer FieldBlock {
   vec4 origin, cell;  // of the grid
   ivec4 size;         // its points, and the parts of a cell along each axis
   vec4 open[16];
-  int has_lamp, has_seen, has_stand_in, has_lamp_stand_in;
+  int has_lamp, has_seen, has_stand_in, has_lamp_stand_in, has_lamp_ends;
 } field;
 layout(std430, binding = 3) readonly buffer Seen { uint seen_corners[]; };  // four a word
 layout(std430, binding = 4) readonly buffer StandIn { uint stand_in[]; };  // of all, then of the lamp
 
 layout(std430, binding = 5) writeonly buffer AroundTable { vec4 around_rows[]; };
-uniform samplerBuffer terms, lamp_terms;  // sixteen colours a point
+// Sixteen colours a point. Of the lamp: what the air has scattered, then what surfaces have.
+uniform samplerBuffer terms, lamp_terms;
 
 const float kPi = 3.1415927;
 
@@ -37,6 +38,8 @@ int order_of(int t) { return t < 1 ? 0 : t < 4 ? 1 : t < 9 ? 2 : 3; }
 
 vec3 grid_length() { return field.cell.xyz * vec3(field.size.xyz - 1); }
 vec3 nearest_point(vec3 p) { return clamp(p, field.origin.xyz, field.origin.xyz + grid_length()); }
+
+int count_points() { return field.size.x * field.size.y * field.size.z; }
 
 uint seen_from(vec3 p) {
   if (field.has_seen == 0) return 255u;
@@ -74,7 +77,7 @@ Corners corners_about(vec3 p, bool of_lamp) {
     if ((seen >> k & 1u) != 0u) sum += corners.weight[k];
   float share = min(sum / 0.25, 1.0);
   float of_seen = sum > 0.0 ? share / sum : 0.0, of_others = sum < 1.0 ? (1.0 - share) / (1.0 - sum) : 0.0;
-  int first = of_lamp ? field.size.x * field.size.y * field.size.z : 0;
+  int first = of_lamp ? count_points() : 0;
   for (int k = 0; k < 8; ++k) {
     bool is_seen = (seen >> k & 1u) != 0u;
     corners.weight[k] *= is_seen ? of_seen : of_others;
@@ -83,16 +86,35 @@ Corners corners_about(vec3 p, bool of_lamp) {
   return corners;
 }
 
-Orders towards(Corners corners, bool of_lamp, float y[16]) {
-  Orders sum = Orders(vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)));
+// Of each table: 0: of the place, in stops as factor_in_stops(); 1, 2: of the lamp, by the air and by surfaces.
+const int kPlace = 0, kLampAir = 1, kLampEnds = 2;
+vec3 term_of(int table, int point, int t) {
+  if (table == kPlace) return texelFetch(terms, point * 16 + t).rgb;
+  return texelFetch(lamp_terms, ((table == kLampEnds ? count_points() : 0) + point) * 16 + t).rgb;
+}
+
+float factor_in_stops(Corners corners) {
+  float light[8], most = 0.0, mean = 0.0, stops = 0.0;
+  for (int k = 0; k < 8; ++k) {
+    light[k] = dot(term_of(kPlace, corners.at[k], 0), vec3(1.0 / 3.0));
+    most = max(most, light[k]);
+    mean += corners.weight[k] * light[k];
+  }
+  if (most <= 0.0 || mean <= 0.0) return 1.0;
+  for (int k = 0; k < 8; ++k) stops += corners.weight[k] * log2(max(light[k] / most, 1.0 / 4096.0));
+  return min(most * exp2(stops) / mean, 1.0);
+}
+
+void add_towards(Corners corners, int table, float factor, float y[16], inout Orders sum) {
   for (int k = 0; k < 8; ++k) {
     if (corners.weight[k] == 0.0) continue;
-    for (int t = 0; t < 16; ++t) {
-      int i = corners.at[k] * 16 + t;
-      vec3 term = of_lamp ? texelFetch(lamp_terms, i).rgb : texelFetch(terms, i).rgb;
-      sum.l[order_of(t)] += term * (corners.weight[k] * y[t]);
-    }
+    for (int t = 0; t < 16; ++t) sum.l[order_of(t)] += term_of(table, corners.at[k], t) * (factor * corners.weight[k] * y[t]);
   }
+}
+Orders towards(Corners corners, bool of_lamp, float y[16]) {
+  Orders sum = Orders(vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)));
+  add_towards(corners, of_lamp ? kLampAir : kPlace, of_lamp ? 1.0 : factor_in_stops(corners), y, sum);
+  if (!of_lamp && field.has_lamp_ends != 0) add_towards(corners, kLampEnds, 1.0, y, sum);
   return sum;
 }
 

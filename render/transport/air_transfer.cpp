@@ -97,21 +97,31 @@ void AirTransfer::find_response(const std::vector<Vec3f>& usual) {
 }
 
 // What the air at each point sends on against this direction, of all that it takes; the last: its extinction.
-void AirTransfer::emit(const AirMatter& air, std::size_t direction, std::vector<Colour>& out) const {
+void AirTransfer::emit(const AirMatter& air, const Sources& sources, std::size_t direction, Emitted& out) const {
   const Harmonics& y = harmonics_[direction];
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    Colour sum;
+  const auto four = [](const Vec3f& v) { return Four{v.x, v.y, v.z, 0}; };
+  out.light.resize(total_.size()), out.beams.resize(sources.beams.size());
+  for (std::size_t i = 0; i < total_.size(); ++i) {
+    Colour& sum = out.light[i] = {};
     for (std::size_t t = 0; t < kTerms; ++t) {
-      sum.c += total_[i][t].c * (y[t] * air.scattered[i][order_of(t)]);
+      const Four light = sources.beams.empty() ? total_[i][t].c : total_[i][t].c - four(sources.direct[i][t]);
+      sum.c += light * (y[t] * air.scattered[i][order_of(t)]);
     }
     sum.c[3] = air.extinction[i];
-    out[i] = sum;
+  }
+  for (std::size_t l = 0; l < out.beams.size(); ++l) {
+    out.beams[l].resize(total_.size());
+    for (std::size_t i = 0; i < total_.size(); ++i) {
+      Colour& sum = out.beams[l][i] = {};
+      for (std::size_t t = 0; t < kTerms; ++t)
+        sum.c += four(sources.beams[l][i][t]) * (y[t] * air.scattered[i][order_of(t)]);
+    }
   }
 }
 
 // Of the corners about a place, in cells, that it sees; `otherwise`: a point that stands for them where it sees none.
 AirTransfer::Colour AirTransfer::between(const std::vector<Colour>& grid, const Vec3f& at, std::uint8_t seen,
-                                         std::size_t otherwise) const {
+                                         std::size_t otherwise, bool in_stops) const {
   const auto [nx, ny, nz] = links_.grid.size;
   const auto low = [](float a, int n) { return std::clamp(int(a), 0, n - 2); };
   const int x = low(at.x, nx), y = low(at.y, ny), z = low(at.z, nz);
@@ -122,24 +132,26 @@ AirTransfer::Colour AirTransfer::between(const std::vector<Colour>& grid, const 
   const std::ptrdiff_t row = nx, layer = std::ptrdiff_t(nx) * ny;
   const std::ptrdiff_t off[8] = {0, 1, row, row + 1, layer, layer + 1, layer + row, layer + row + 1};
   Colour out;
-  if (seen == 255) {
-    for (std::size_t k = 0; k < 8; ++k) out.c += corner[off[k]].c * weight[k];
-    return out;
-  }
+  std::array<float, 8> light{}, weights{};
   float sum = 0;
   for (std::size_t k = 0; k < 8; ++k) {
     if (!(seen >> k & 1u)) continue;
     sum += weight[k];
     out.c += corner[off[k]].c * weight[k];
+    light[k] = corner[off[k]].c[1], weights[k] = weight[k];
   }
   if (sum < kLeastShare) return grid[otherwise];
   out.c *= 1 / sum;
+  if (!in_stops) return out;
+  for (float& w : weights) w *= 1 / sum;
+  const float factor = factor_in_stops(light, weights);
+  out.c *= Four{factor, factor, factor, 1};
   return out;
 }
 
 // emitted: by the air; none: it only weakens what lies at the ends.
 void AirTransfer::follow(const AirMatter& air, const Sources& sources, std::size_t direction,
-                         const std::vector<Colour>* emitted) {
+                         const Emitted* emitted) {
   const AirGrid& grid = links_.grid;
   const std::size_t count = grid.count(), first = direction * count;
   const Vec3f& d = links_.directions[direction];
@@ -153,13 +165,19 @@ void AirTransfer::follow(const AirMatter& air, const Sources& sources, std::size
                      float(i / std::size_t(grid.size[0] * grid.size[1])));
     const AirLinks::End& end = links_.ends[first + i];
     const float length = links_.length(direction, i);
-    const std::uint8_t* seen = links_.seen.data() + links_.first_place[i * AirLinks::kDirections + direction];
+    std::size_t place = links_.first_place[i * AirLinks::kDirections + direction];
     float passed = 1;
     Colour sum;
     if (!emitted) passed = quick::exp(-air.extinction[i] * length);
     if (emitted) {
       links_.cut(length, [&](float middle, float step) {
-        const Colour here = between(*emitted, from + way * middle, *seen++, i);
+        const Vec3f at = from + way * middle;
+        Colour here = between(emitted->light, at, links_.seen[place], i, !sources.brighter);
+        for (std::size_t l = 0; l < emitted->beams.size(); ++l) {
+          const float reached = (*sources.reached)[l][place];
+          if (reached > 0) here.c += between(emitted->beams[l], at, links_.seen[place], i, false).c * reached;
+        }
+        ++place;
         const float through = quick::exp(-here.c[3] * step), share = passed * (1 - through);
         sum.c += here.c * share;
         passed *= through;
@@ -174,7 +192,7 @@ void AirTransfer::follow(const AirMatter& air, const Sources& sources, std::size
       const Colour& surface = sources.surfaces[end.point];
       far = Vec3f(surface.c[0], surface.c[1], surface.c[2]);
       if (emitted && end.distance <= length) {
-        const Colour response = between(response_, from + way * links_.place_before_end(length), *seen, i);
+        const Colour response = between(response_, from + way * links_.place_before_end(length), links_.seen[place], i, false);
         far = Vec3f(far.x * response.c[0], far.y * response.c[1], far.z * response.c[2]);
       }
     }
@@ -185,9 +203,9 @@ void AirTransfer::follow(const AirMatter& air, const Sources& sources, std::size
 
 void AirTransfer::sweep(const AirMatter& air, const Sources& sources, bool scatters, ThreadPool& pool) {
   pool.run(int(AirLinks::kDirections), 1, [&](int begin, int end) {
-    std::vector<Colour> emitted(scatters ? links_.grid.count() : 0);
+    Emitted emitted;
     for (std::size_t k = std::size_t(begin); k < std::size_t(end); ++k) {
-      if (scatters) emit(air, k, emitted);
+      if (scatters) emit(air, sources, k, emitted);
       follow(air, sources, k, scatters ? &emitted : nullptr);
     }
   });

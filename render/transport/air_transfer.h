@@ -29,6 +29,11 @@ class AirTransfer {
     const Vec3f* sky = nullptr;         // radiance by direction of the links; none: black
     const Colour* surfaces = nullptr;   // radiance of each bake point, matt
     std::vector<RadianceTerms> direct;  // of each point: beams that arrive there
+    // Where it is known which places of the links they reach, these scatter them, and not the points: a beam is narrower
+    // than a cell. Of each light, what would arrive at each point if nothing stood in its way but air; and the share of the
+    // stretch of air about each place that it reaches, as AirLinks::seen. Empty: the points scatter `direct`.
+    std::vector<std::vector<RadianceTerms>> beams;
+    const std::vector<std::vector<float>>* reached = nullptr;
     // Of each point, the mean radiance under which surfaces have that radiance; empty: what arrives without
     // scattering. Where more arrives, they reflect more.
     std::vector<Vec3f> usual;
@@ -59,9 +64,14 @@ class AirTransfer {
   void gather_total(const Sources& sources, ThreadPool& pool);
   void find_response(const std::vector<Vec3f>& usual);
   void sweep(const AirMatter& air, const Sources& sources, bool scatters, ThreadPool& pool);
-  void emit(const AirMatter& air, std::size_t direction, std::vector<Colour>& out) const;
-  void follow(const AirMatter& air, const Sources& sources, std::size_t direction, const std::vector<Colour>* emitted);
-  Colour between(const std::vector<Colour>& grid, const Vec3f& at, std::uint8_t seen, std::size_t otherwise) const;
+  // By the air at each point against a direction: all light but beams of which that is known, and these.
+  struct Emitted {
+    std::vector<Colour> light;
+    std::vector<std::vector<Colour>> beams;
+  };
+  void emit(const AirMatter& air, const Sources& sources, std::size_t direction, Emitted& out) const;
+  void follow(const AirMatter& air, const Sources& sources, std::size_t direction, const Emitted* emitted);
+  Colour between(const std::vector<Colour>& grid, const Vec3f& at, std::uint8_t seen, std::size_t otherwise, bool in_stops) const;
   void project(const std::vector<Colour>& incoming, std::vector<RadianceTerms>& out, ThreadPool& pool) const;
 
   AirLinks links_;

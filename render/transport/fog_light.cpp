@@ -44,9 +44,10 @@ FogLight::FogLight(const PreparedScene& scene, const RayScene& rays, const Aabb&
   const AirGrid& grid = transfer_.links().grid;
   for (const Vec3f& d : transfer_.links().directions) sky_.push_back(d.z > 0 ? light_.sky.radiance(d) : Vec3f());
   find_lit(rays);
+  find_reached(rays);
   AirTransfer::Sources sources;
   sources.sky = sky_.data(), sources.surfaces = radiance_.data();
-  find_direct(nullptr, sources.direct);
+  find_direct(nullptr, sources);
   find_places(scene, rays);
   AirMatter none;
   none.extinction.resize(grid.count()), none.scattered.resize(grid.count());
@@ -84,6 +85,34 @@ void FogLight::find_lit(const RayScene& rays) {
   });
 }
 
+// At some distances within each stretch of a link.
+void FogLight::find_reached(const RayScene& rays) {
+  constexpr float kApart = 0.3f;  // unit: m
+  constexpr int kMost = 8;
+  const AirLinks& links = transfer_.links();
+  reached_.assign(light_.lights.size(), std::vector<float>(links.seen.size()));
+  pool_.run(int(links.grid.count()), 8, [&](int begin, int end) {
+    for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i) {
+      if (links.nearest[i] != i) continue;
+      const Vec3f from = links.grid.point(i);
+      for (std::size_t k = 0; k < AirLinks::kDirections; ++k) {
+        std::size_t place = links.first_place[i * AirLinks::kDirections + k];
+        links.cut(links.length(k, i), [&](float middle, float step) {
+          const int count = std::clamp(int(step / kApart) + 1, 2, kMost);
+          for (std::size_t l = 0; l < reached_.size(); ++l)
+            for (int n = 0; n < count; ++n) {
+              const Vec3f p = from + links.directions[k] * (middle + step * ((float(n) + 0.5f) / float(count) - 0.5f));
+              const LightModel::Sample sample = light_.lights[l].at(p);
+              const bool blocked = rays.blocked(p, sample.to_light, 0, std::min(sample.distance * 0.999f, kLightReach));
+              reached_[l][place] += blocked ? 0.0f : 1 / float(count);
+            }
+          ++place;
+        });
+      }
+    }
+  });
+}
+
 // Half a cell off the surface, or in the middle of what is left of a narrow gap.
 void FogLight::find_places(const PreparedScene& scene, const RayScene& rays) {
   const CornerSight sight(scene, rays, transfer_.links().grid);
@@ -111,18 +140,19 @@ void FogLight::find_places(const PreparedScene& scene, const RayScene& rays) {
 float FogLight::usual_off() const { return 0.5f * transfer_.links().cell(); }
 
 // air: none: clear.
-void FogLight::find_direct(const Air* air, std::vector<RadianceTerms>& out) {
+void FogLight::find_direct(const Air* air, AirTransfer::Sources& out) const {
   const AirGrid& grid = transfer_.links().grid;
-  out.assign(grid.count(), {});
+  out.direct.assign(grid.count(), {});
+  out.beams.assign(light_.lights.size(), std::vector<RadianceTerms>(grid.count())), out.reached = &reached_;
   for (std::size_t l = 0; l < light_.lights.size(); ++l) {
     const LightModel& model = light_.lights[l];
     pool_.run(int(grid.count()), 256, [&](int begin, int end) {
       for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i) {
-        if (lit_[l][i] <= 0) continue;
         const Vec3f p = grid.point(i);
         const LightModel::Sample sample = model.at(p);
         const float passes = air ? passes_to(*air, box_, model, sample, p) : 1.0f;
-        add_beam(sample.illuminance * (passes * lit_[l][i]), sample.to_light, out[i]);
+        add_beam(sample.illuminance * passes, sample.to_light, out.beams[l][i]);
+        for (std::size_t t = 0; t < kHarmonics; ++t) out.direct[i][t] += out.beams[l][i][t] * lit_[l][i];
       }
     });
   }
@@ -158,19 +188,16 @@ void FogLight::set_air(const Air& air) {
   matter_ = turning_matter(air, transfer_.links().grid);
   AirTransfer::Sources sources;
   sources.sky = sky_.data(), sources.surfaces = radiance_.data(), sources.usual = usual_;
-  find_direct(&air_, sources.direct);
+  find_direct(&air_, sources);
   day_ = transfer_.solve(matter_, sources, pool_);
   add_up();
 }
 
 void FogLight::add_up() {
   field_.terms = day_.ends;
-  const auto add = [&](const std::vector<RadianceTerms>& more) {
-    for (std::size_t i = 0; i < more.size(); ++i)
-      for (std::size_t t = 0; t < kHarmonics; ++t) field_.terms[i][t] += more[i][t];
-  };
-  add(day_.air), add(lamp_.ends);
-  field_.of_lamp = lamp_.air;
+  for (std::size_t i = 0; i < day_.air.size(); ++i)
+    for (std::size_t t = 0; t < kHarmonics; ++t) field_.terms[i][t] += day_.air[i][t];
+  field_.ends_of_lamp = lamp_.ends, field_.of_lamp = lamp_.air;
   field_.stand_in = day_.stand_in, field_.lamp_stand_in = lamp_.stand_in;
 }
 
@@ -182,13 +209,13 @@ FogLight::Change FogLight::change_at(const Vec3f& surface, const Vec3f& normal, 
   corners.keep(place.seen, day_.stand_in);
   // With a part of the light from all around, as there may be next to none from before the surface.
   const auto light = [&](const std::vector<RadianceTerms>& field) {
-    const RadianceTerms terms = blend(field, corners);
+    const RadianceTerms terms = blend_in_stops(field, corners);
     return illuminance_of(terms, normal) + terms[0] * (kFromAround * portable::kPiF * harmonics_of({0, 0, 1})[0]);
   };
   const Vec3f before = light(clear_), ends = light(day_.ends);
   Change out;
   for (int c = 0; c < 3; ++c) out.factor[c] = before[c] > 0 ? std::min(ends[c] / before[c], kMostFactor) : 1.0f;
-  out.air = illuminance_between(day_.air, corners, normal);
+  out.air = illuminance_between(day_.air, corners, normal, true);
   return out;
 }
 
@@ -265,7 +292,7 @@ void FogLight::put_lamp_out() {
 
 float FogLight::daylight(const Vec3f& point) const {
   const AirGrid::Corners corners = day_.shown(field_.grid.about(field_.grid.nearest(point)));
-  const Vec3f first = blend(day_.ends, corners)[0] + blend(day_.air, corners)[0];
+  const Vec3f first = blend_in_stops(day_.ends, corners)[0] + blend_in_stops(day_.air, corners)[0];
   return luminance(first) * (harmonics_of({0, 0, 1})[0] * portable::kPiF);
 }
 
@@ -275,7 +302,7 @@ Vec3f FogLight::lamp_illuminance(const Vec3f& point, const Vec3f& normal) const 
   const float off = usual_off();
   const Vec3f p = point + normal * off;
   if (norm(p - grid.nearest(p)) > off) return {};
-  return illuminance_between(lamp_.air, lamp_.shown(grid.about(p)), normal);
+  return illuminance_between(lamp_.air, lamp_.shown(grid.about(p)), normal, false);
 }
 
 }  // namespace rubble

@@ -48,7 +48,8 @@ class FogLight {
 
   void find_lit(const RayScene& rays);
   void find_places(const PreparedScene& scene, const RayScene& rays);
-  void find_direct(const Air* air, std::vector<RadianceTerms>& out);
+  void find_reached(const RayScene& rays);
+  void find_direct(const Air* air, AirTransfer::Sources& out) const;
   void find_open();
   float usual_off() const;  // from surfaces; unit: m
   Place place_of_mover(const Vec3f& surface, const Vec3f& normal) const;  // as what rests sees it
@@ -64,6 +65,7 @@ class FogLight {
   AirMatter matter_;
   std::vector<Vec3f> sky_, usual_;              // by direction; mean radiance of each point in clear air
   std::vector<std::vector<float>> lit_;         // by each light: share of the air that each point stands for
+  std::vector<std::vector<float>> reached_;     // by each light, as AirTransfer::Sources
   std::vector<RadianceTerms> clear_;            // in clear air
   std::vector<Place> places_;                   // of each bake point of what rests
   AirTransfer::Result day_, lamp_;              // lamp_: empty where it is out

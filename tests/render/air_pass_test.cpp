@@ -33,7 +33,7 @@ class Surroundings {
     field_.seen.cuts = 2;
     const std::size_t count = field_.grid.count();
     for (std::size_t i = 0; i < count * 8; ++i) field_.seen.seen.push_back(std::uint8_t(random_.next() >> 56));
-    field_.terms = terms(count, 1), field_.of_lamp = terms(count, 0.5);
+    field_.terms = terms(count, 1), field_.of_lamp = terms(count, 0.5), field_.ends_of_lamp = terms(count, 0.3);
     field_.open = terms(1, 0.7).front();
     for (std::vector<std::uint32_t>* other : {&field_.stand_in, &field_.lamp_stand_in})
       for (std::size_t i = 0; i < count; ++i) other->push_back(std::uint32_t(random_.uniform() * double(count)));

@@ -190,6 +190,29 @@ TEST(AirTransfer, KeepsEvenLightAndWeakensItByTheLaw) {
   }
 }
 
+// Half way between the light of a void and sixteen times as much outside there is four times as much, not eight and a half.
+TEST(RadianceGrid, LightLiesBetweenPointsInStops) {
+  RadianceGrid field;
+  field.grid = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
+  for (std::size_t i = 0; i < 8; ++i) {
+    RadianceTerms& terms = field.terms.emplace_back();
+    const float light = i % 2 ? 16.0f : 1.0f;
+    terms[0] = {light, light, light}, terms[3] = {0.5f * light, 0, 0};
+  }
+  const RadianceTerms middle = field.at({0.5f, 0.3f, 0.7f});
+  EXPECT_NEAR(middle[0].y, 4, 1e-5);
+  EXPECT_NEAR(middle[3].x, 2, 1e-5);
+  EXPECT_NEAR(field.at({0.25f, 0.5f, 0.5f})[0].y, 2, 1e-5);
+  EXPECT_NEAR(field.at({1, 0.5f, 0.5f})[0].y, 16, 1e-4);
+  // A lamp's is the mean.
+  field.ends_of_lamp.assign(8, {});
+  for (std::size_t i = 1; i < 8; i += 2) field.ends_of_lamp[i][0] = {2, 2, 2};
+  EXPECT_NEAR(field.at({0.5f, 0.5f, 0.5f})[0].y, 5, 1e-5);
+  // Darkness on one side leaves something of the other one.
+  for (std::size_t i = 0; i < 8; i += 2) field.terms[i] = {};
+  EXPECT_GT(field.at({0.5f, 0.5f, 0.5f})[0].y, 1.0f);
+}
+
 TEST(AirBox, ClipsRays) {
   Aabb box;
   box.include({-1, -2, -3}), box.include({1, 2, 3});

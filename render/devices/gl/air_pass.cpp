@@ -16,7 +16,7 @@ struct FieldBlock {
   float origin[4] = {}, cell[4] = {};
   std::int32_t size[4] = {};
   float open[kHarmonics][4] = {};
-  std::int32_t has_lamp = 0, has_seen = 0, has_stand_in = 0, has_lamp_stand_in = 0;
+  std::int32_t has_lamp = 0, has_seen = 0, has_stand_in = 0, has_lamp_stand_in = 0, has_lamp_ends = 0;
 };
 
 GlTexture make_table(const Gl& gl) {
@@ -74,9 +74,13 @@ void AirPass::give_field(const RadianceGrid& field) {
     for (int c = 0; c < 3; ++c) block.open[t][c] = field.open[t][c];
   block.has_lamp = field.of_lamp.empty() ? 0 : 1, block.has_seen = field.seen.seen.empty() ? 0 : 1;
   block.has_stand_in = field.stand_in.empty() ? 0 : 1, block.has_lamp_stand_in = field.lamp_stand_in.empty() ? 0 : 1;
-  field_.give(&block, sizeof block);
   static_assert(sizeof(RadianceTerms) == kHarmonics * 3 * sizeof(float));
-  terms_.give(field.terms), lamp_terms_.give(field.of_lamp);
+  terms_.give(field.terms);
+  std::vector<RadianceTerms> of_lamp = field.of_lamp;
+  if (!of_lamp.empty()) of_lamp.insert(of_lamp.end(), field.ends_of_lamp.begin(), field.ends_of_lamp.end());
+  block.has_lamp_ends = of_lamp.size() > field.of_lamp.size() ? 1 : 0;
+  field_.give(&block, sizeof block);
+  lamp_terms_.give(of_lamp);
   if (!terms_view_) {
     terms_view_ = make_buffer_texture(gl_, terms_.buffer(), GL_RGB32F);
     lamp_terms_view_ = make_buffer_texture(gl_, lamp_terms_.buffer(), GL_RGB32F);

@@ -46,6 +46,9 @@ RobotCommand make_growth_command(const RobotModel& model, double speed, double l
 RobotCommand make_joints_command(const RobotModel& model, const std::vector<double>& targets) {
   expect(targets.size() == model.joints.size(), "targets", "wrong number of angles", std::to_string(model.joints.size()));
   expect_finite(targets, "targets", "radians");
+  expect(std::all_of(model.joints.begin(), model.joints.end(),
+                     [](const RobotJoint& joint) { return joint.motor.effort <= 0 || joint.motor.stiffness > 0; }),
+         "set_joints", "this robot has motors that turn at a speed and hold no position", "drive(linear, angular)");
   RobotCommand command;
   for (const double target : targets) command.joints.push_back({MotorMode::position, target});
   return command;

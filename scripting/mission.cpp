@@ -72,6 +72,17 @@ std::string placed_key(std::size_t i, const char* name) {
   return "pile.placed[" + std::to_string(i + 1) + "]." + name;
 }
 
+// Functions are in no text: one that a program has made of a mission has their numbers alone.
+void check_controllers(const std::vector<RobotItem>& robots, int registered, std::vector<Diagnostic>& mistakes) {
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (robots[i].control <= registered) continue;
+    mistakes.push_back({"", 0, "robots[" + std::to_string(i + 1) + "].control",
+                        "the script registers no function " + std::to_string(robots[i].control),
+                        "what rubble.controller(function) returned", std::to_string(robots[i].control),
+                        "a function cannot stand outside the script"});
+  }
+}
+
 }  // namespace
 
 void give_overrides(const std::vector<std::string>& overrides, LuaSandbox& sandbox) {
@@ -120,6 +131,7 @@ Mission load_mission_text(const std::string& text, const std::string& path,
   if (options.seed) form.rest.seed = *options.seed;
   check_seed(sandbox, seed, form.rest.seed, mistakes);
   add_duplicates(lines, mistakes);
+  check_controllers(form.rest.robots, sandbox.controllers(), mistakes);
   add_unrelated(find_mistakes(form), mistakes);
   locate(mistakes, path, lines);
   throw_if_any(std::move(mistakes));

@@ -29,13 +29,41 @@ void ask_leg_joints(const RobotModel& model, const RobotLeg& leg, RobotCommand& 
   }
 }
 
-// key: of the robot. What is named must be there, and no value may be left over.
-void check_joints(const RobotItem& robot, const RobotModel& model, const std::string& key) {
+// What other kinds alone understand must be left at its defaults.
+void check_figures(const RobotItem& robot, const RobotLeg& leg, const std::string& key) {
+  const FiguresOfKinds usual = make_command_figures();
+  std::size_t next = 0;
+  for (const RobotKind* kind : robot_kinds()) {
+    if (!kind->command_figures()) continue;
+    const std::size_t at = next++;
+    if (kind == &kind_of(robot) || leg.figures.all()[at]->equals(*usual.all()[at])) continue;
+    Schema keys;
+    usual.all()[at]->add_keys(keys);
+    std::string names;
+    for (const Key& one : keys.keys()) names += (names.empty() ? "" : ", ") + one.path;
+    throw InputError({"", 0, key, "a command of another robot", "what a " + kind_of(robot).name() + " does",
+                      "one of " + names + ", which are those of a " + kind->name(), ""});
+  }
+}
+
+// key: of the robot. What is named must be there, no value may be left over, and nothing that the robot cannot do.
+void check_legs(const RobotItem& robot, const RobotModel& model, const std::string& key) {
+  const auto motors = std::count_if(model.joints.begin(), model.joints.end(), [](const RobotJoint& j) { return j.motor.effort > 0; });
   for (std::size_t k = 0; k < robot.drive.size(); ++k) {
-    const std::string leg = key + ".drive[" + std::to_string(k + 1) + "]";
-    for (const std::string& name : robot.drive[k].joint_names) find_motor(model, name, leg + ".joint_names");
-    if (!robot.drive[k].joint_names.empty()) continue;
-    if (const auto mistake = find_surplus(model, robot.drive[k].joints.size(), leg + ".joints")) throw InputError(*mistake);
+    const RobotLeg& leg = robot.drive[k];
+    const std::string at = key + ".drive[" + std::to_string(k + 1) + "]";
+    for (const std::string& name : leg.joint_names) find_motor(model, name, at + ".joint_names");
+    if (leg.joint_names.empty())
+      if (const auto mistake = find_surplus(model, leg.joints.size(), at + ".joints")) throw InputError(*mistake);
+    if (const auto mistake = find_unheld(model, leg.joint_names, leg.joints.size(), at + ".joints")) throw InputError(*mistake);
+    if (!model.sides.any() && (leg.linear != 0 || leg.angular != 0))
+      throw InputError({"", 0, at + (leg.linear != 0 ? ".linear" : ".angular"), "this robot has neither tracks nor driven wheels",
+                        "0", format_number(leg.linear != 0 ? leg.linear : leg.angular), ""});
+    const std::size_t flippers = model.sides.belts ? std::size_t(motors) : 0;
+    if (leg.flippers_deg.size() > flippers)
+      throw InputError({"", 0, at + ".flippers_deg", "more angles than the robot has flippers", std::to_string(flippers) + " at most",
+                        std::to_string(leg.flippers_deg.size()), ""});
+    check_figures(robot, leg, at);
   }
 }
 
@@ -68,6 +96,19 @@ std::optional<Diagnostic> find_surplus(const RobotModel& model, std::size_t valu
                     std::to_string(values), ""};
 }
 
+std::optional<Diagnostic> find_unheld(const RobotModel& model, const std::vector<std::string>& names, std::size_t values,
+                                      const std::string& key) {
+  std::size_t next = 0;
+  for (const RobotJoint& joint : model.joints) {
+    if (joint.motor.effort <= 0) continue;
+    const bool asked = names.empty() ? next++ < values : std::find(names.begin(), names.end(), joint.name) != names.end();
+    if (asked && joint.motor.stiffness <= 0)
+      return Diagnostic{"", 0, key, "the motor of " + joint.name + " turns at a speed and holds no position",
+                        "`linear` and `angular` of a robot with wheels", "a position", "a controller may return `speeds` or `torques`"};
+  }
+  return std::nullopt;
+}
+
 RobotRunOptions robot_run_options(const Scenario& scenario, int threads) {
   RobotRunOptions options;
   options.duration = scenario.robot_run.duration;
@@ -96,7 +137,7 @@ std::vector<MissionRobot> make_robots(const ResolvedMission& mission, RunContext
     if (i < mission.assets.robot_files.size() && !robot.urdf.empty()) robot.urdf = mission.assets.robot_files[i];
     made.push_back(make_mission_robot(robot, folders,
                                       "robots[" + std::to_string(i + 1) + "]", importer));
-    check_joints(mission.scenario.robots[i], made.back().model, "robots[" + std::to_string(i + 1) + "]");
+    check_legs(mission.scenario.robots[i], made.back().model, "robots[" + std::to_string(i + 1) + "]");
     for (const std::string& warning : made.back().warnings) context.warnings.push_back(warning);
     const std::string clash = mission.scenario.robots.size() > 1 ? "" : find_frame_clash(mission.scenario, made.back());
     if (!clash.empty())

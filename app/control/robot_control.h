@@ -26,6 +26,11 @@ std::size_t find_motor(const RobotModel& model, const std::string& name, const s
 // The mistake, with that key, of more values than there are motors at joints.
 std::optional<Diagnostic> find_surplus(const RobotModel& model, std::size_t values, const std::string& key);
 
+// The mistake, with that key, of a position asked of a motor that holds none, as those of wheels. names: of joints; none: so
+// many of all motors, in their order.
+std::optional<Diagnostic> find_unheld(const RobotModel& model, const std::vector<std::string>& names, std::size_t values,
+                                      const std::string& key);
+
 // Asks the motors, which are numbered among themselves, in their order.
 void ask_motors(const RobotModel& model, const std::vector<double>& targets, MotorMode mode, RobotCommand& command);
 

@@ -27,11 +27,11 @@ struct Answer {
   std::vector<double> speeds, torques;
 };
 
-Schema answer_schema(const RobotKind& kind, Answer& answer) {
+Schema answer_schema(const RobotKind& kind, const RobotModel& model, Answer& answer) {
   Schema k;
   k.value("linear", answer.leg.linear, "Forwards.").between(-5, 5).unit("m/s");
   k.value("angular", answer.leg.angular, "Counter-clockwise.").between(-10, 10).unit("rad/s");
-  k.value("flippers", answer.leg.flippers, "Angles of a tracked robot's.").between(-4, 4).unit("rad");
+  if (model.sides.belts) k.value("flippers", answer.leg.flippers, "Angles of a tracked robot's.").between(-4, 4).unit("rad");
   kind.add_answer_keys(answer.leg, k);
   k.value("joints", answer.leg.joints, "Positions.").between(-kMostTarget, kMostTarget);
   k.value("speeds", answer.speeds, "Instead of positions.").between(-kMostTarget, kMostTarget);
@@ -95,22 +95,31 @@ RobotController ScriptControl::controller_of(std::size_t robot, const RobotModel
     Value told = describe_sense(sense, kind_of(item), model, gravity, last, last_time);
     if (wheels) told.set("odometry", describe_odometry(wheels->update(sense.state, sense.time)));
     if (!item.senses.empty()) state.tell(robot, told);
-    const Value returned = call(state.sandbox, item.control, told);
     Answer answer;
     std::vector<Diagnostic> mistakes;
-    if (returned.kind != Value::Kind::table) {
+    Value returned;
+    try {
+      returned = call(state.sandbox, item.control, told);
+    } catch (const InputError& error) {
+      mistakes = error.diagnostics();
+    }
+    if (!mistakes.empty()) {
+      // What went wrong within the function says where.
+    } else if (returned.kind != Value::Kind::table) {
       mistakes.push_back({"", 0, "", "the function returned no valid commands",
                           "a table such as { linear = 0.3, angular = 0 }", describe(returned), ""});
     } else {
-      read_table(answer_schema(kind_of(item), answer), returned, mistakes);
+      read_table(answer_schema(kind_of(item), model, answer), returned, mistakes);
       const std::pair<const char*, std::size_t> counts[] = {
-          {"joints", answer.leg.joints.size()}, {"speeds", answer.speeds.size()}, {"torques", answer.torques.size()}};
+          {"flippers", answer.leg.flippers.size()}, {"joints", answer.leg.joints.size()}, {"speeds", answer.speeds.size()}, {"torques", answer.torques.size()}};
       for (const auto& [member, count] : counts)
         if (auto surplus = find_surplus(model, count, member)) mistakes.push_back(std::move(*surplus));
+      if (auto unheld = find_unheld(model, {}, answer.leg.joints.size(), "joints")) mistakes.push_back(std::move(*unheld));
     }
     for (Diagnostic& d : mistakes) {
       d.message += ", at t = " + format_number(sense.time) + " s";
       d.key = d.key.empty() ? key : key + ": " + d.key;
+      if (d.line > 0) continue;
       d.file = state.mission.provenance.script.path;
       d.line = state.lines.line_of(key);
     }

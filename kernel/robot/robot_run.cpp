@@ -146,7 +146,8 @@ void RobotRun::check_room() const {
     d.message = model.links[std::size_t(worst.link)].name + " stands " +
                 text_of("%.3f m", -worst.separation, 0, 0) + " deep in " + name_of(worst.piece);
     d.expected = "a place that is free";
-    d.hint = text_of("move it by {%.3f, %.3f, %.3f} at least", out.x, out.y, out.z);
+    // Downwards would be into the ground.
+    d.hint = out.z < -1e-3 ? "a place above it, or beside it" : text_of("move it by {%.3f, %.3f, %.3f} at least", out.x, out.y, out.z);
     mistakes.push_back(d);
   }
   if (!mistakes.empty()) throw InputError(mistakes);

@@ -80,6 +80,7 @@ class Snake : public RobotKind {
 
   void steer(const TeleopCommand& asked, const RobotItem& robot, const RobotLeg& last, double seconds, RobotLeg& leg) const override {
     RobotKind::steer(asked, robot, last, seconds, leg);
+    leg.linear = leg.angular = 0;  // it has neither tracks nor wheels
     SnakeCommand& own = leg.figures.of<SnakeCommand>();
     const SnakeCommand& was = last.figures.of<SnakeCommand>();
     const double forwards = within(asked.forward + (asked.speed > 0 ? asked.linear.x / asked.speed : 0), 1);

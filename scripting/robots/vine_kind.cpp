@@ -90,6 +90,7 @@ class Vine : public RobotKind {
     RobotKind::steer(asked, robot, last, seconds, leg);
     VineCommand& own = leg.figures.of<VineCommand>();
     own.growth = within(leg.linear, 1);
+    leg.linear = leg.angular = 0;  // it has neither tracks nor wheels
     own.curvature = kCurvature * within(asked.yaw + asked.angular.z / kTurn, 1);
     own.curvature_up = kCurvature * within(-asked.pitch - asked.angular.y / kTurn, 1);
   }

@@ -289,9 +289,20 @@ Value LuaSandbox::run(const std::string& text, const std::string& path) {
   return value;
 }
 
+int LuaSandbox::controllers() const {
+  lua_State* const lua = state_->host.lua;
+  const bool any = lua_getfield(lua, LUA_REGISTRYINDEX, kControllers) == LUA_TTABLE;
+  const int count = any ? int(lua_rawlen(lua, -1)) : 0;
+  lua_settop(lua, 0);
+  return count;
+}
+
 Value LuaSandbox::call_controller(int number, const Value& argument) {
+  if (number < 1 || number > controllers())
+    throw InputError({"", 0, "", "there is no function " + std::to_string(number), "one that rubble.controller registered", "", ""});
   State& s = *state_;
   lua_State* const lua = s.host.lua;
+  const std::size_t mistakes = s.host.mistakes.size();
   lua_getfield(lua, LUA_REGISTRYINDEX, kControllers);
   lua_rawgeti(lua, -1, number);
   lua_remove(lua, -2);
@@ -306,6 +317,8 @@ Value LuaSandbox::call_controller(int number, const Value& argument) {
   lua_sethook(lua, nullptr, 0, 0);
   Value value = read_lua_value(lua, -1);
   lua_settop(lua, 0);
+  if (s.host.mistakes.size() > mistakes)
+    throw InputError(std::vector<Diagnostic>(s.host.mistakes.begin() + std::ptrdiff_t(mistakes), s.host.mistakes.end()));
   return value;
 }
 

@@ -64,7 +64,9 @@ class LuaSandbox {
   // includes are looked for beside it. Throws InputError with file and line.
   Value run(const std::string& text, const std::string& path);
 
-  // Calls a function that the script gave to rubble.controller, by its number, once the script has run.
+  // How many functions the script gave to rubble.controller. They have the numbers from 1 on.
+  int controllers() const;
+  // Calls one of them, by its number, once the script has run.
   // Limits hold for each call by itself: 2 million instructions. Throws InputError with file and line.
   Value call_controller(int number, const Value& argument);
 

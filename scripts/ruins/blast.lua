@@ -1,11 +1,11 @@
--- A blast of 16 kN s/m2 at one metre, beside a long side: the walls there are blown in, and the building comes down.
+-- A blast of 20 kN s/m2 at one metre, beside a long side: the walls there are blown in, and the building comes down.
 return rubble.mission {
   seed = 8,
   pile = rubble.building {
     storeys = 3, bays_x = 2, bays_y = 2, span_x = 5, span_y = 5,
     column = 0.3, piece = 1.3,
     cause = {
-      blast = 16000, blast_at = { 0, -6.5, 1 },
+      blast = 20000, blast_at = { 0, -6.5, 1 },
     },
   },
   settle = { final_time_limit = 60 },

@@ -12,7 +12,7 @@ import work as stages
 
 HERE = pathlib.Path(__file__).resolve().parent
 FILE = HERE / "records.jsonl"
-GOLDEN = ("tests/golden/kernel.txt", "tests/determinism/missions/suite.lua")
+GOLDEN = ("tests/golden/kernel.txt", "tests/determinism/missions/suite.golden.json")
 MEASURES = ("matches.py", "carriers.py", "carrier.lua")
 BIN = 0.5  # of frames together, by metres into the void; unit: m
 

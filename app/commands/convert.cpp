@@ -58,7 +58,14 @@ Recording recording_of(const Scenario& scenario, const FinishedRun& saved, const
                        RunContext& context) {
   if (scenario.robots.empty()) return describe_recording(scenario, assets, pile);
   const std::vector<MissionRobot> robots = make_robots({saved.manifest.provenance, scenario, scenario.seed, assets}, context);
-  return describe_recording(scenario, assets, pile, describe_robots(scenario, robots));
+  const std::vector<RobotRecord> records = describe_robots(scenario, robots);
+  Recording recording = describe_recording(scenario, assets, pile, records);
+  const Ride& ride = scenario.trajectory.ride;
+  const std::vector<std::string> names = robot_names(scenario.robots);
+  const auto carrier = std::size_t(std::find(names.begin(), names.end(), ride.robot) - names.begin());
+  if (carrier < names.size())
+    recording.mount = {ride.link.empty() ? records[carrier].frame_of(0) : records[carrier].frame_named(ride.link), ride.link_from_rig()};
+  return recording;
 }
 
 // Frames of each camera, by the hashes of the manifest.

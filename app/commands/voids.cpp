@@ -72,8 +72,9 @@ VoidMap make_map(const FolderRequest& request, const VoidRequest& voids, Progres
   options.scenery = assets.terrain();
   const auto report = [&](const char* what, double from, double share) {
     return [&progress, what, from, share](double done) {
+      throw_if_stopped("");
       progress.update(from + share * done, what);
-      return !stop_requested();
+      return true;
     };
   };
   options.margin = kShownAround;

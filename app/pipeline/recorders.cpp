@@ -98,9 +98,12 @@ Recording describe_recording(const Scenario& scenario, const AssetLibrary& asset
     recording.imus.push_back(record_of(imu, recording.frame_of(carrier)));
     recording.imus.back().carrier = carrier;
   }
-  for (const SensorItem& sensor : scenario.sensors)
+  for (const SensorItem& sensor : scenario.sensors) {
+    std::unique_ptr<SensorKind> format = sensor.figures->clone();
+    format->exact = !sensor.noise;
     recording.sensors.push_back({sensor.name, topic_of(scenario.sensors, sensor), sensor.frame(), frame_of(sensor.ride, scenario, robots),
-                                 sensor.carrier_from_sensor(), sensor.figures->clone()});
+                                 sensor.carrier_from_sensor(), std::move(format)});
+  }
   const ClassLabels labels(scenario, assets.types);
   recording.legend.labels = labels.names();
   for (const PieceState& piece : pile.pieces) {

@@ -1,5 +1,8 @@
 #include "io/datasets/euroc_recorder.h"
 
+#include <locale>
+#include <sstream>
+
 #include "io/base/folder_writer.h"
 #include "io/base/number_text.h"
 #include "io/datasets/pose_rows.h"
@@ -29,21 +32,36 @@ std::string mounting(const Pose& body_from_sensor) {
   return "T_BS:\n  cols: 4\n  rows: 4\n  data: " + list(values) + "\n";
 }
 
-std::string camera_yaml(const Intrinsics& k, const Pose& body_from_optical, double rate_hz) {
+// Empty for one picture. To six digits: a period of whole nanoseconds has no more.
+std::string rate_row(std::int64_t period_ns) {
+  if (period_ns <= 0) return "";
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << "rate_hz: " << 1e9 / static_cast<double>(period_ns) << "\n";
+  return text.str();
+}
+
+std::string camera_yaml(const Intrinsics& k, const Pose& body_from_optical, std::int64_t period_ns) {
   const bool fisheye = k.lens == LensModel::fisheye;
   std::vector<double> distortion(k.distortion.begin(), k.distortion.begin() + 4);
   if (!fisheye && k.distortion[4] != 0) distortion.push_back(k.distortion[4]);
   return "sensor_type: camera\ncomment: simulated by Rubble\n" + mounting(body_from_optical) +
-         "rate_hz: " + exact_text(rate_hz) + "\nresolution: [" + std::to_string(k.width) + ", " +
+         rate_row(period_ns) + "resolution: [" + std::to_string(k.width) + ", " +
          std::to_string(k.height) +
          "]\ncamera_model: pinhole\nintrinsics: " + list({k.fx, k.fy, k.cx, k.cy}) +
          "\ndistortion_model: " + (fisheye ? "equidistant" : "radial-tangential") +
          "\ndistortion_coefficients: " + list(distortion) + "\n";
 }
 
-std::string imu_yaml(const ImuRecord& imu) {
+// The body is the rig, or the link that carries the cameras; a unit on a link is on that one, or on the one of the rig.
+Pose body_from_imu(const Recording& recording, const ImuRecord& imu) {
+  if (imu.carrier.empty() || !recording.cameras.front().carrier.empty() || !recording.mount) return imu.rig_from_imu;
+  return recording.mount->parent_from_rig.inverse() * imu.rig_from_imu;
+}
+
+std::string imu_yaml(const ImuRecord& imu, const Pose& body_from_imu) {
   const ImuModel& model = imu.model;
-  return "sensor_type: imu\ncomment: simulated by Rubble\n" + mounting(imu.rig_from_imu) +
+  return "sensor_type: imu\ncomment: simulated by Rubble\n" + mounting(body_from_imu) +
          "rate_hz: " + exact_text(model.rate_hz) +
          "\ngyroscope_noise_density: " + exact_text(model.gyroscope_noise) +
          "\ngyroscope_random_walk: " + exact_text(model.gyroscope_walk) +
@@ -107,7 +125,7 @@ class EurocRecorder : public Recorder {
     for (const EurocCamera& camera : cameras_) write_camera(camera);
     for (std::size_t i = 0; i < imus_.size(); ++i) {
       folder_.write(folder_of_imu(i) + "/data.csv", imus_[i]);
-      folder_.write(folder_of_imu(i) + "/sensor.yaml", imu_yaml(recording_.imus[i]));
+      folder_.write(folder_of_imu(i) + "/sensor.yaml", imu_yaml(recording_.imus[i], body_from_imu(recording_, recording_.imus[i])));
     }
     folder_.write("mav0/state_groundtruth_estimate0/data.csv", states_);
     folder_.write("mav0/state_groundtruth_estimate0/sensor.yaml",
@@ -160,14 +178,13 @@ class EurocRecorder : public Recorder {
 
   void write_camera(const EurocCamera& camera) {
     const Seen& seen = seen_[std::size_t(camera.camera)];
-    const double rate_hz = seen.period_ns > 0 ? 1e9 / static_cast<double>(seen.period_ns) : 0;
     Pose camera_from_eye = camera_from_optical;
     if (camera.right) camera_from_eye.translation = {0, -seen.first.baseline, 0};
     const Pose body_from_eye =
         recording_.cameras[std::size_t(camera.camera)].in_rig(camera_from_eye);
     folder_.write("mav0/" + camera.name + "/data.csv", seen.pictures);
     folder_.write("mav0/" + camera.name + "/sensor.yaml",
-                  camera_yaml(seen.first.intrinsics, body_from_eye, rate_hz));
+                  camera_yaml(seen.first.intrinsics, body_from_eye, seen.period_ns));
   }
 
   Recording recording_;

@@ -206,8 +206,13 @@ std::vector<Element> read_header(PlyFile& file, PlyMesh& mesh) {
     if (keyword == "format") read_format(file, words);
     if (keyword == "element") {
       Element element;
-      if (!(words >> element.name >> element.count))
-        file.refuse("not an element", "element NAME COUNT", element.name);
+      words >> element.name >> std::ws;
+      if (words.peek() == '-') {
+        std::string count;
+        words >> count;
+        file.refuse("no count of " + element.name, "0 or more", count);
+      }
+      if (!(words >> element.count)) file.refuse("not an element", "element NAME COUNT", element.name);
       elements.push_back(element);
     }
     if (keyword != "property") continue;
@@ -250,7 +255,10 @@ void read_vertices(PlyFile& file, const Element& element, PlyMesh& mesh) {
   }
 }
 
+[[noreturn]] void refuse_no_vertex(const PlyFile& file) { file.refuse("holds no vertex", "points or a mesh", "none"); }
+
 std::uint32_t check_corner(PlyFile& file, const PlyMesh& mesh, double value) {
+  if (mesh.positions.empty()) refuse_no_vertex(file);
   if (!(value >= 0 && value < double(mesh.positions.size())))
     file.refuse("no such corner", "0 to " + std::to_string(mesh.positions.size() - 1), (std::ostringstream() << value).str());
   return std::uint32_t(value);
@@ -308,6 +316,16 @@ void note_of_faces(const Element& element, PlyMesh& mesh) {
   }
 }
 
+// What of a file is read: faces before the vertices take two readings.
+enum class Part { all, vertices, faces };
+
+bool has_faces(const Element& element) { return element.name == "face" || element.name == "tristrips"; }
+
+bool has_faces_first(const std::vector<Element>& elements) {
+  const auto first = std::find_if(elements.begin(), elements.end(), [](const Element& e) { return e.name == "vertex" || has_faces(e); });
+  return first != elements.end() && has_faces(*first);
+}
+
 void pass_over(PlyFile& file, const Element& element) {
   for (const Property& property : element.properties) {
     std::uint64_t count = 1;
@@ -318,22 +336,29 @@ void pass_over(PlyFile& file, const Element& element) {
 
 // Every item takes a byte at least for each of its properties: what a file says of itself must not
 // take more time or memory than the file has bytes. One of an element without properties takes none.
-void read_items(PlyFile& file, const Element& element, PlyMesh& mesh) {
+void read_items(PlyFile& file, const Element& element, Part part, PlyMesh& mesh) {
   if (element.properties.empty()) return;
   if (element.count > file.left())
     file.refuse("the file ends early", std::to_string(element.count) + " of " + element.name,
                 std::to_string(file.left()) + " bytes");
   file.begin_items(element.count);
-  if (element.name == "vertex") return read_vertices(file, element, mesh);
-  if (element.name == "face") note_of_faces(element, mesh);
-  if (element.name == "edge" && element.count > 0) mesh.notes.push_back("lines beside its faces are left out");
+  if (element.name == "vertex" && part != Part::faces) return read_vertices(file, element, mesh);
+  const bool faces = has_faces(element) && part != Part::vertices;
+  if (element.name == "face" && faces) note_of_faces(element, mesh);
+  if (element.name == "edge" && element.count > 0 && part != Part::faces) mesh.notes.push_back("lines beside its faces are left out");
   for (std::uint64_t i = 0; i < element.count; ++i) {
-    if (element.name == "face" || element.name == "tristrips")
+    if (faces)
       read_face(file, element, mesh);
     else
       pass_over(file, element);
     file.end_item();
   }
+}
+
+void read_faces(const std::string& path, PlyMesh& mesh) {
+  PlyFile file(path);
+  PlyMesh header;
+  for (const Element& element : read_header(file, header)) read_items(file, element, Part::faces, mesh);
 }
 
 void check_vertex(PlyFile& file, const Element& element) {
@@ -349,11 +374,14 @@ void check_vertex(PlyFile& file, const Element& element) {
 PlyMesh load_ply(const std::string& path) {
   PlyFile file(path);
   PlyMesh mesh;
-  for (const Element& element : read_header(file, mesh)) {
+  const std::vector<Element> elements = read_header(file, mesh);
+  const bool faces_first = has_faces_first(elements);
+  for (const Element& element : elements) {
     if (element.name == "vertex") check_vertex(file, element);
-    read_items(file, element, mesh);
+    read_items(file, element, faces_first ? Part::vertices : Part::all, mesh);
   }
-  if (mesh.positions.empty()) file.refuse("holds no vertex", "points or a mesh", "none");
+  if (faces_first) read_faces(path, mesh);
+  if (mesh.positions.empty()) refuse_no_vertex(file);
   if (mesh.short_faces > 0)
     mesh.notes.push_back("faces of less than three corners are left out: " + std::to_string(mesh.short_faces));
   if (file.has_more_words) mesh.notes.push_back("numbers beyond the properties of its header are left out");

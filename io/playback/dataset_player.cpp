@@ -72,6 +72,7 @@ struct DatasetPlayer::State {
   void set_rig_velocity(const CameraRecord& record, const FramesFolder& folder, Frame& frame);
   Frame read_frame(std::size_t camera);
   void give(Frame frame, const std::function<void(Sample)>& take);
+  void give_rest(const std::function<void(Sample)>& take);
   void play_folders(const std::function<void(Sample)>& take);
   void play_ros(const std::function<void(Sample)>& take);
 };
@@ -226,6 +227,11 @@ void DatasetPlayer::State::give(Frame frame, const std::function<void(Sample)>& 
   take(std::move(frame));
 }
 
+// What comes after the last frame.
+void DatasetPlayer::State::give_rest(const std::function<void(Sample)>& take) {
+  for (; next_beside < beside.size(); ++next_beside) take(beside[next_beside].read());
+}
+
 void DatasetPlayer::State::play_folders(const std::function<void(Sample)>& take) {
   for (;;) {
     std::optional<std::size_t> first;
@@ -275,6 +281,7 @@ void DatasetPlayer::play(const std::function<void(Sample)>& take) {
     state_->play_folders(mark_sequences);
   else
     state_->play_ros(mark_sequences);
+  state_->give_rest(mark_sequences);
 }
 
 }  // namespace rubble

@@ -53,6 +53,7 @@ class ReadingFormat {
   virtual std::vector<ReadingColumn> columns() const = 0;
   virtual double most_points() const { return 0; }  // of a scan, with all its echoes; 0: it does not scan
   virtual std::shared_ptr<const LidarSpec> scan_spec() const { return nullptr; }  // of its scans, where their rays go; null: no scans
+  bool exact = false;  // whether readings have no noise: messages then state no variance
   virtual std::string sample_name() const { return "reading"; }  // of what it gives: to Python
 
   // A reading is a message on each of these, below the sensor's own topic.

@@ -14,6 +14,7 @@ namespace rubble {
 namespace {
 
 constexpr double kHeightSpacing = 0.1;  // of the corners of a height field; unit: m
+constexpr double kPixel = 5e-6;         // edge of a pixel of a camera, which no picture depends on; unit: m
 constexpr double kFieldBase = 1;        // of a height field below its lowest corner; unit: m
 
 // The order of MuJoCo's integrator, solver and cone of friction: contacts of a pile creep least with these. Softness is
@@ -116,13 +117,19 @@ class MjcfBuilder {
     for (const SimJoint& joint : model.joints) {
       excludes_ += "    <exclude body1=\"" + body_name(model, joint.parent) + "\" body2=\"" + body_name(model, joint.child) + "\"/>\n";
       if (joint.loop) add_loop(model, joint);
-      if (joint.drive != SimDrive::none) add_actuator(model, joint);
       if (joint.mimics >= 0)
-        equalities_ += "    <joint joint1=\"" + joint_name(model, joint) + "\" joint2=\"" +
-                       joint_name(model, model.joints[std::size_t(joint.mimics)]) + "\" polycoef=\"" +
-                       number_list({joint.offset, joint.multiplier, 0, 0, 0}) + "\"/>\n";
+        add_mimic(model, joint);
+      else if (joint.drive != SimDrive::none)
+        add_actuator(model, joint);
     }
     return text;
+  }
+
+  // MuJoCo counts both positions from their references.
+  void add_mimic(const SimModel& model, const SimJoint& joint) {
+    const SimJoint& led = model.joints[std::size_t(joint.mimics)];
+    equalities_ += "    <joint joint1=\"" + joint_name(model, joint) + "\" joint2=\"" + joint_name(model, led) + "\" polycoef=\"" +
+                   number_list({joint.offset + joint.multiplier * led.position - joint.position, joint.multiplier, 0, 0, 0}) + "\"/>\n";
   }
 
   std::string body_text(int index, int link_index, const std::string& indent) {
@@ -267,10 +274,21 @@ class MjcfBuilder {
     return found->second;
   }
 
+  // By its angle of view where the pixels are square and the axis meets the middle. MuJoCo counts the principal point to the
+  // left and up.
+  static std::string lens_text(const SimCamera& camera) {
+    const double left = 0.5 * (camera.width - 1) - camera.cx, up = 0.5 * (camera.height - 1) - camera.cy;
+    if (camera.fx == camera.fy && left == 0 && up == 0)
+      return attribute("fovy", exact_text(2 * portable::atan2(0.5 * camera.height, camera.fy) * 180 / portable::kPi));
+    const double width = camera.width, height = camera.height;
+    return attribute("resolution", number_list({width, height})) +
+           attribute("sensorsize", number_list({width * kPixel, height * kPixel})) +
+           attribute("focalpixel", number_list({camera.fx, camera.fy})) + attribute("principalpixel", number_list({left, up}));
+  }
+
   std::string camera_text(const SimCamera& camera, const std::string& indent) const {
     const Pose pose{camera.carrier_from_camera.rotation * kBodyFromLens, camera.carrier_from_camera.translation};
-    const double fovy = 2 * portable::atan2(0.5 * camera.height, camera.fy) * 180 / portable::kPi;
-    return indent + "<camera name=\"" + xml_text(camera.name) + "\"" + place(pose) + attribute("fovy", exact_text(fovy)) + "/>\n";
+    return indent + "<camera name=\"" + xml_text(camera.name) + "\"" + place(pose) + lens_text(camera) + "/>\n";
   }
 
   struct Key {

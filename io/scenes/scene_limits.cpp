@@ -18,6 +18,7 @@ bool is_loop(const SimJoint& joint) { return joint.loop; }
 bool is_sprung_ball(const SimJoint& joint) { return is_ball(joint) && joint.stiffness > 0; }
 bool is_sprung(const SimJoint& joint) { return joint.stiffness > 0; }
 bool is_dry(const SimJoint& joint) { return joint.friction > 0; }
+bool is_mimic(const SimJoint& joint) { return joint.mimics >= 0; }
 bool is_slider_loop(const SimJoint& joint) { return joint.loop && joint.kind == JointKind::slider; }
 
 std::vector<std::string> drop_empty(std::vector<std::string> sentences) {
@@ -26,6 +27,7 @@ std::vector<std::string> drop_empty(std::vector<std::string> sentences) {
 }
 
 constexpr char kSlackBalls[] = "of the kind ball: the springs are left out, damping and dry friction are kept";
+constexpr char kFreeMimics[] = "with `mimic`: each moves by itself";
 
 }  // namespace
 
@@ -36,7 +38,8 @@ std::vector<std::string> mjcf_limits(const SimScene& scene) {
 }
 
 std::vector<std::string> sdf_limits(const SimScene& scene) {
-  return drop_empty({count_joints(scene, is_sprung_ball, "of the kind ball: springs, damping and dry friction are left out")});
+  return drop_empty({count_joints(scene, is_sprung_ball, "of the kind ball: springs, damping and dry friction are left out"),
+                     count_joints(scene, is_mimic, kFreeMimics)});
 }
 
 std::vector<std::string> urdf_limits(const SimScene& scene) {
@@ -48,7 +51,8 @@ std::vector<std::string> urdf_limits(const SimScene& scene) {
 
 std::vector<std::string> usd_limits(const SimScene& scene) {
   return drop_empty({count_joints(scene, is_sprung_ball, "of the kind ball: springs and damping are left out"),
-                     count_joints(scene, is_dry, "with dry friction: the friction is left out")});
+                     count_joints(scene, is_dry, "with dry friction: the friction is left out"),
+                     count_joints(scene, is_mimic, kFreeMimics)});
 }
 
 }  // namespace rubble

@@ -352,8 +352,8 @@ class UsdBuilder {
            "float focalLength = " + exact_text(camera.fx * pixel) + "\n" + inner + "float horizontalAperture = " + exact_text(kAperture) + "\n" +
            inner + "float verticalAperture = " + exact_text(camera.height * pixel * camera.fx / camera.fy) + "\n" + inner +
            "float horizontalApertureOffset = " + exact_text((0.5 * (camera.width - 1) - camera.cx) * pixel) + "\n" + inner +
-           "float verticalApertureOffset = " + exact_text((camera.cy - 0.5 * (camera.height - 1)) * pixel) + "\n" + transform(pose, inner) + indent +
-           "}\n";
+           "float verticalApertureOffset = " + exact_text((camera.cy - 0.5 * (camera.height - 1)) * pixel * camera.fx / camera.fy) + "\n" +
+           transform(pose, inner) + indent + "}\n";
   }
 
   const ExportModel& model_;

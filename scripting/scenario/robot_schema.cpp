@@ -72,6 +72,23 @@ void check_ride(const Scenario& scenario, const std::vector<std::string>& names,
         "limits, smoothing, a duration or a plan");
 }
 
+std::string carrier_text(const Carrier& carrier) {
+  if (!carrier.on()) return "the flying rig";
+  return (carrier.link.empty() ? "the first link" : "the link \"" + carrier.link + "\"") + " of \"" + carrier.robot + "\"";
+}
+
+// Poses of all sensors in one body: the rig and what it rides on are one, links that joints hold are not.
+void check_euroc_units(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
+  const auto carrier_of = [&](const Carrier& ride) { return ride.on() ? ride : Carrier(scenario.trajectory.ride); };
+  const Carrier body = carrier_of(scenario.cameras.front().ride);
+  for (const ImuScenario& imu : scenario.imus) {
+    const Carrier felt = carrier_of(imu.ride);
+    if (felt == body) continue;
+    mistakes.push_back({"", 0, imu.key() + ".ride", "outputs.euroc has one moving body, that of the cameras",
+                        "a unit on " + carrier_text(body) + ", or another format", "one on " + carrier_text(felt), ""});
+  }
+}
+
 // What a link carries is on no rig: formats that know one moving body alone cannot hold both.
 void check_sensor_rides(const Scenario& scenario, const std::vector<std::string>& names,
                         std::vector<Diagnostic>& mistakes) {
@@ -91,6 +108,8 @@ void check_sensor_rides(const Scenario& scenario, const std::vector<std::string>
   if (mixed && scenario.outputs.euroc)
     mistakes.push_back({"", 0, "outputs.euroc", "the format has one moving body",
                         "cameras on one carrier, or another format", "cameras on several", ""});
+  else if (scenario.outputs.euroc)
+    check_euroc_units(scenario, mistakes);
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ class Attitude : public SensorKind {
   std::vector<ReadingColumn> columns() const override { return {{"qx", ""}, {"qy", ""}, {"qz", ""}, {"qw", ""}}; }
   std::vector<Topic> topics() const override { return {{"", &ros::kImu}}; }
   std::string message(std::size_t, ros::Version version, const ros::Header& header, const Reading& r) const override {
-    const auto variance = [this](double drift) { return (drift * drift + f_.noise_deg * f_.noise_deg) * kRad * kRad; };
+    const auto variance = [this](double drift) { return exact ? 0 : (drift * drift + f_.noise_deg * f_.noise_deg) * kRad * kRad; };
     const double tilt = variance(f_.tilt_drift_deg);
     return ros::attitude(version, header, {r.values[3], r.values[0], r.values[1], r.values[2]},
                          {tilt, tilt, variance(f_.heading_drift_deg)});

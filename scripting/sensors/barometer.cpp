@@ -61,7 +61,7 @@ class Barometer : public SensorKind {
   std::vector<ReadingColumn> columns() const override { return {{"pressure", "Pa"}}; }
   std::vector<Topic> topics() const override { return {{"", &ros::kFluidPressure}}; }
   std::string message(std::size_t, ros::Version version, const ros::Header& header, const Reading& reading) const override {
-    return ros::fluid_pressure(version, header, reading.values[0], f_.pressure_noise * f_.pressure_noise);
+    return ros::fluid_pressure(version, header, reading.values[0], exact ? 0 : f_.pressure_noise * f_.pressure_noise);
   }
   RawlogObservation observe(const Reading& reading) const override {
     InertialObservation inertial;

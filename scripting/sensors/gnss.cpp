@@ -52,7 +52,8 @@ bool invert(Matrix4& m, Matrix4& inverse) {
 
 class GnssMeter : public SensorMeter {
  public:
-  GnssMeter(const SensorSite& site, const GnssFigures& f, std::optional<std::uint64_t> seed, double rate_hz) : site_(site), f_(f) {
+  GnssMeter(const SensorSite& site, const GnssFigures& f, std::optional<std::uint64_t> seed, double rate_hz)
+      : site_(site), f_(f), variance_(seed ? f.range_drift * f.range_drift + f.range_noise * f.range_noise : 0) {
     for (std::size_t i = 0; i < find_gps_satellites(0, 0, 0).size(); ++i)
       errors_.emplace_back(ErrorFigures{f.range_noise, 0, 0, f.range_drift, f.drift_time}, seed, "satellite " + std::to_string(i), rate_hz);
     const auto [s, c] = portable::sincos(site.north_deg * kRadianOfDegree);
@@ -79,9 +80,8 @@ class GnssMeter : public SensorMeter {
     double error[3] = {};
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 4; ++b) error[a] += inverse[a][b] * right[b];
-    const double variance = f_.range_drift * f_.range_drift + f_.range_noise * f_.range_noise;
     reading[kHdop] = std::sqrt(inverse[0][0] + inverse[1][1]);
-    for (int a = 0; a < 3; ++a) reading[std::size_t(kEastVariance + a)] = variance * inverse[a][a];
+    for (int a = 0; a < 3; ++a) reading[std::size_t(kEastVariance + a)] = variance_ * inverse[a][a];
     const Vec3 place = site_.world_from_sensor(t).translation;
     put_place({dot(place, east_) + error[0], dot(place, north_) + error[1], place.z + error[2]}, reading);
     return reading;
@@ -118,6 +118,7 @@ class GnssMeter : public SensorMeter {
 
   const SensorSite& site_;
   GnssFigures f_;
+  double variance_;                  // of a range; unit: m2
   std::vector<SensorError> errors_;  // by satellite
   Vec3 east_, north_;
 };

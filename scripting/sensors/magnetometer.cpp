@@ -69,7 +69,7 @@ class Magnetometer : public SensorKind {
   std::vector<ReadingColumn> columns() const override { return {{"x", "T"}, {"y", "T"}, {"z", "T"}}; }
   std::vector<Topic> topics() const override { return {{"", &ros::kMagneticField}}; }
   std::string message(std::size_t, ros::Version version, const ros::Header& header, const Reading& r) const override {
-    const double noise = f_.noise_ut * kMicro;
+    const double noise = exact ? 0 : f_.noise_ut * kMicro;
     return ros::magnetic_field(version, header, {r.values[0], r.values[1], r.values[2]}, noise * noise);
   }
   RawlogObservation observe(const Reading& reading) const override {

@@ -184,6 +184,25 @@ TEST(Convert, KnowsWhatTheNumbersOfTheRecordingMean) {
   EXPECT_IN("readings of robots cannot be read back", states.err);
 }
 
+// The unit is in the body of the rig, which rides on the same link.
+TEST(Convert, KnowsWhatTheRigRidesOn) {
+  const ScratchFolder scratch;
+  write_file(scratch / "rig.lua", R"(return rubble.mission {
+    pile = { layers = 0, placed = { { box = { 1, 1, 1 }, position = { 3, 0, 0.5 } } } },
+    robots = { rubble.robot.rover { name = "r", position = { 0, 0, 0.001 } } }, robot_run = { duration = 0.2 },
+    camera = { width = 32, height = 32 }, imu = { on = true, ride = { robot = "r" } },
+    trajectory = { rate_hz = 10, ride = { robot = "r", position = { 0.5, 0, 0.25 } } },
+    outputs = { euroc = true, frames = true },
+  })");
+  const Outcome run = run_rubble("run " + (scratch / "rig.lua") + " --out " + (scratch / "rig") + " --quiet");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_IN("data: [1, 0, 0, -0.5, 0, 1, 0, 0, 0, 0, 1, -0.25, 0, 0, 0, 1]", read_file(scratch / "rig/euroc/mav0/imu0/sensor.yaml"));
+  const Outcome done = run_rubble("convert " + (scratch / "rig") + " --to euroc --quiet");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  for (const char* name : {"euroc/mav0/imu0", "euroc/mav0/cam0/sensor.yaml"})
+    expect_same(scratch / ("rig/" + std::string(name)), scratch / ("rig/convert/" + std::string(name)));
+}
+
 TEST(Pieces, AreATableWithTheirMasses) {
   const Outcome table = run_rubble("pieces " + dataset());
   ASSERT_EQ(table.exit_code, 0) << table.err;

@@ -280,6 +280,13 @@ TEST_F(EvalMap, AMeshWithoutAnyAreaCountsByItsCorners) {
   EXPECT_EQ(number(s, "within_1cm_percent"), 100);
 }
 
+TEST_F(EvalMap, ASignalStopsItCleanly) {
+  const Outcome stopped =
+      run_rubble_and_signal("eval map " + (*scratch_ / "whole.ply") + " " + dataset() + " --voxel 0.02 --radius 0.2",
+                            [](const std::string& said) { return said.find("voids ...") != std::string::npos; }, SIGTERM);
+  EXPECT_EQ(stopped.exit_code, 4) << stopped.err;
+}
+
 TEST_F(EvalMap, SaysWhatIsWrongWithTheInput) {
   const auto error = [](const std::string& map, const std::string& folder) {
     const Outcome run = run_rubble("eval map " + map + " " + folder);

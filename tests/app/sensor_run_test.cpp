@@ -69,6 +69,27 @@ TEST(SensorRun, TheWayUnderASlabIsInTheReadings) {
   EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
 }
 
+// Zero: unknown, or none.
+TEST(SensorRun, MessagesOfExactReadingsStateNoVariance) {
+  int kinds = 0;
+  for (const SensorKind* kind : sensor_kinds()) {
+    if (kind->key() != "magnetometers" && kind->key() != "barometers" && kind->key() != "attitudes") continue;
+    ++kinds;
+    const auto exact = kind->clone();
+    exact->exact = true;
+    const Reading reading{0, 1, std::vector<double>(kind->columns().size(), 0.5), nullptr};
+    const auto bytes = [&](const SensorKind& of) { return of.message(0, ros::Version::ros2, {0, 1, "a"}, reading); };
+    const std::string was = bytes(*kind), is = bytes(*exact);
+    ASSERT_EQ(was.size(), is.size());
+    EXPECT_NE(was, is) << kind->key();
+    for (std::size_t i = 0; i < is.size(); ++i)
+      if (was[i] != is[i]) {
+        EXPECT_EQ(is[i], 0) << kind->key() << " " << i;
+      }
+  }
+  EXPECT_EQ(kinds, 3);
+}
+
 TEST(SensorRun, MistakesAreNamedByTheLine) {
   const ScratchFolder scratch;
   write_file(scratch / "m.lua",

@@ -54,6 +54,15 @@ TEST_F(Voids, RefusesWhatMemoryWouldNotHoldAndFoldersWithoutARun) {
   EXPECT_NE(none.err.find("no such folder"), std::string::npos) << none.err;
 }
 
+TEST_F(Voids, ASignalStopsItCleanly) {
+  const ScratchFolder& scratch = *scratch_;
+  const Outcome stopped =
+      run_rubble_and_signal("voids " + (scratch / "a") + " --voxel 0.01 --out " + (scratch / "stopped"),
+                            [](const std::string& said) { return said.find("voids ...") != std::string::npos; }, SIGTERM);
+  EXPECT_EQ(stopped.exit_code, 4) << stopped.err;
+  EXPECT_NE(stopped.err.find("stopped by a signal"), std::string::npos) << stopped.err;
+}
+
 TEST(Cutaway, DrawsARunsPile) {
   const ScratchFolder scratch;
   write_file(scratch / "m.lua",

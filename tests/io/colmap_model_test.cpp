@@ -168,6 +168,23 @@ TEST(PlyReader, TakesMeshesAndFansOutPolygons) {
   EXPECT_EQ(mesh.triangles[1], (std::array<std::uint32_t, 3>{0, 2, 3}));
 }
 
+// The header gives the order.
+TEST(PlyReader, TakesFacesBeforeTheirVertices) {
+  const test::ScratchFolder folder;
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 4\nproperty float x\n"
+      "property float y\nproperty float z\nend_header\n";
+  const std::string vertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0.5\n";
+  write(folder / "a.ply", header + "4 0 1 2 3\n" + vertices);
+  const PlyMesh mesh = load_ply(folder / "a.ply");
+  ASSERT_EQ(mesh.positions.size(), 4u);
+  EXPECT_EQ(mesh.positions[3], (Vec3{0, 1, 0.5}));
+  ASSERT_EQ(mesh.triangles.size(), 2u);
+  EXPECT_EQ(mesh.triangles[1], (std::array<std::uint32_t, 3>{0, 2, 3}));
+  write(folder / "a.ply", header + "3 0 1 4\n" + vertices);
+  EXPECT_NE(error_of([&] { load_ply(folder / "a.ply"); }).find("a.ply:10: no such corner: expected 0 to 3"), std::string::npos);
+}
+
 TEST(PlyReader, NamesTheLineOfWhatIsWrong) {
   const test::ScratchFolder folder;
   const auto damaged = [&](const std::string& from, const std::string& to) {
@@ -182,6 +199,8 @@ TEST(PlyReader, NamesTheLineOfWhatIsWrong) {
   EXPECT_NE(damaged("ascii", "binary_middle_endian").find("a.ply:2: unknown format"),
             std::string::npos);
   EXPECT_NE(damaged("4 0 1 2 3\n", "").find("the file ends early"), std::string::npos);
+  EXPECT_NE(damaged("vertex 4", "vertex -4").find("a.ply:4: no count of vertex: expected 0 or more, found -4"), std::string::npos);
+  EXPECT_NE(damaged("element vertex", "element other").find("holds no vertex"), std::string::npos);
 }
 
 // 200 bytes that took all memory, or for ever.

@@ -166,7 +166,34 @@ TEST(Euroc, TablesAndCalibrationsAreThoseOfTheFrames) {
             std::string::npos)
       << right;
   EXPECT_NE(right.find("distortion_model: radial-tangential"), std::string::npos);
+  EXPECT_NE(right.find("\nrate_hz: 30\n"), std::string::npos) << right;
   EXPECT_NE(read_text(mav + "imu0/sensor.yaml").find("rate_hz: 150"), std::string::npos);
+}
+
+TEST(Euroc, OnePictureHasNoRate) {
+  ScratchFolder folder;
+  const auto recorder = make_euroc_recorder(folder / "euroc", test::full_recording(), 1);
+  test::write_full(*recorder, 0);
+  recorder->finish();
+  EXPECT_EQ(read_text(folder / "euroc/mav0/cam0/sensor.yaml").find("rate_hz"), std::string::npos);
+}
+
+// The rig rides on the link that carries the unit, or the cameras do.
+TEST(Euroc, UnitsOnTheLinkOfTheRigAreInItsBody) {
+  ScratchFolder folder;
+  Recording recording = test::full_recording();
+  recording.imus[0].carrier = "base_link";
+  recording.imus[0].rig_from_imu.translation = {0, 0, 1};
+  const auto mounting = [&](const std::string& name) {
+    record(make_euroc_recorder(folder / name, recording, 1));
+    const std::string text = read_text(folder / (name + "/mav0/imu0/sensor.yaml"));
+    const std::size_t at = text.find("data: ");
+    return text.substr(at, text.find('\n', at) - at);
+  };
+  recording.mount = RigMount{"base_link", {{0.5, 0.5, 0.5, 0.5}, {0.25, 0, 0.5}}};  // its X to Y, Y to Z, Z to X
+  EXPECT_EQ(mounting("rig"), "data: [0, 1, 0, 0, 0, 0, 1, 0.5, 1, 0, 0, -0.25, 0, 0, 0, 1]");
+  recording.cameras[0].carrier = "base_link";
+  EXPECT_EQ(mounting("link"), "data: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1]");
 }
 
 // COLMAP measures pixels from the corner of the picture: ours are half a pixel less.

@@ -38,6 +38,7 @@ void record(const std::string& name, const ScratchFolder& folder, RosDepth depth
             RosPictures pictures = RosPictures::raw) {
   const auto recorder = make_source(name, folder, {depth, pictures, test::full_recording()});
   for (int i = 0; i < kFrames; ++i) test::write_full(*recorder, i);
+  recorder->write_imu(test::make_full_imu(kFrames).front());  // after the last frame
   recorder->finish();
 }
 
@@ -106,6 +107,7 @@ TEST_P(DatasetPlayers, GiveWhatWasRecorded) {
     expect_same_frame(make_full_frame(i), played.frames[std::size_t(i)]);
     for (const ImuSample& sample : test::make_full_imu(i)) imus.push_back(sample);
   }
+  imus.push_back(test::make_full_imu(kFrames).front());
   ASSERT_EQ(played.imus.size(), imus.size());
   for (std::size_t i = 0; i < imus.size(); ++i) {
     EXPECT_EQ(played.imus[i].stamp_ns, imus[i].stamp_ns);

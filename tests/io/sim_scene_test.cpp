@@ -117,7 +117,7 @@ class SimScenes : public ::testing::Test {
     camera.name = "eye", camera.model = 5, camera.link = 0, camera.carrier_from_camera.translation = {0.2, 0, 0.2};
     camera.width = 640, camera.height = 480, camera.fx = camera.fy = 320, camera.cx = 319.5, camera.cy = 239.5;
     model_.sim.cameras = {camera};
-    camera.name = "post", camera.model = -1;
+    camera.name = "post", camera.model = -1, camera.fy = 400, camera.cx = 300, camera.cy = 200;
     model_.sim.cameras.push_back(camera);
   }
 
@@ -215,7 +215,7 @@ TEST_F(SimScenes, MujocoFindsMassesPosesJointsAndMotors) {
   const std::string folder = write("mjcf");
   std::string text = test::read_text(folder + "/pile.xml");
   EXPECT_EQ(text.find("vertex="), std::string::npos) << "Rapier reads meshes of files only";
-  for (const char* newer : {" inertia=\"(shell|convex)\"", "<size memory=\"512M\"/>"})
+  for (const char* newer : {" inertia=\"(shell|convex)\"", "<size memory=\"512M\"/>", " (resolution|sensorsize|focalpixel|principalpixel)=\"[^\"]*\""})
     text = std::regex_replace(text, std::regex(newer), "");
   text = std::regex_replace(text, std::regex("implicitfast"), "implicit");
   std::ofstream(folder + "/old.xml") << text;
@@ -269,6 +269,35 @@ TEST_F(SimScenes, MujocoFindsMassesPosesJointsAndMotors) {
 #else
   GTEST_SKIP() << "there is no MuJoCo";
 #endif
+}
+
+// MuJoCo counts the positions of both from those of the scene; a motor would hold the second joint where it is.
+TEST_F(SimScenes, MimicsAreTiesInMujocoAndNotesElsewhere) {
+  std::vector<SimJoint>& joints = model_.sim.models.back().joints;
+  joints[0].position = 0.5;
+  joints[1].position = 0.125, joints[1].mimics = 0, joints[1].multiplier = -1, joints[1].offset = 0.25;
+  const std::string text = test::read_text(write("mjcf") + "/pile.xml");
+  const std::string follower = "rover/" + joints[1].name;
+  EXPECT_NE(text.find("<joint joint1=\"" + follower + "\" joint2=\"rover/" + joints[0].name + "\" polycoef=\"-0.375 -1 0 0 0\"/>"),
+            std::string::npos);
+  EXPECT_EQ(text.find("<general name=\"" + follower), std::string::npos);
+  EXPECT_NE(text.find("<general name=\"rover/" + joints[0].name), std::string::npos);
+  for (const auto& limits : {sdf_limits(model_.sim), usd_limits(model_.sim)})
+    EXPECT_EQ(std::count(limits.begin(), limits.end(), "1 joint with `mimic`: each moves by itself"), 1);
+}
+
+// Edges of the picture by the lens: pixel (0, 0) has its centre at (0, 0).
+TEST_F(SimScenes, LensesOffTheMiddleStaySo) {
+  const std::string xml = test::read_text(write("mjcf") + "/pile.xml");
+  for (const char* part : {" resolution=\"640 480\" sensorsize=\"", " focalpixel=\"320 400\" principalpixel=\"19.5 39.5\"/>"})
+    EXPECT_NE(xml.find(part), std::string::npos) << part;
+  const std::string usd = test::read_text(write("usd") + "/pile.usda");
+  const std::string post = usd.substr(usd.find("def Camera \"post\""));
+  const auto value = [&](const std::string& name) { return std::stod(post.substr(post.find(name + " = ") + name.size() + 3)); };
+  const double focal = value("focalLength");
+  EXPECT_NEAR((value("horizontalApertureOffset") + value("horizontalAperture") / 2) / focal, (639.5 - 300) / 320, 1e-9);
+  EXPECT_NEAR((value("verticalApertureOffset") + value("verticalAperture") / 2) / focal, (200 + 0.5) / 400, 1e-9);
+  EXPECT_NEAR((value("verticalApertureOffset") - value("verticalAperture") / 2) / focal, -(479.5 - 200) / 400, 1e-9);
 }
 
 TEST_F(SimScenes, GazebosParserFindsMassesJointsAndSensors) {

@@ -61,8 +61,9 @@ VoidMap make_void_map(const SavedSurface& surface, const MapRequest& request, Pr
   options.scenery = surface.geometry.terrain;
   const auto report = [&](double from, double share) {
     return [&progress, from, share](double done) {
+      throw_if_stopped("");
       progress.update(from + share * done, "voids");
-      return !stop_requested();
+      return true;
     };
   };
   VoidSpace space = calc_void_space(surface.pile, surface.geometry.meshes, options, report(0, 0.6));

@@ -17,6 +17,7 @@ from contextlib import contextmanager
 from typing import Any, Iterable, Iterator, Mapping, Optional, Sequence, Union
 
 from . import _core
+from .arguments import whole
 from .mission_text import MissionText, Path, path_text, source_text, started_with
 from .program import call, options
 
@@ -174,7 +175,7 @@ def batch(mission: Union[MissionText, Path], seeds: Union[str, Iterable[int]], o
     of this machine. Workers need this package. A mission that is a file must be seen by them, one that is a text need not."""
     out, vary = path_text(out, "out"), _core._overrides(vary, "vary")
     overrides, assets = _core._overrides(overrides), _core._folders(assets)
-    words = ["--seeds", seeds if isinstance(seeds, str) else ",".join(str(int(seed)) for seed in seeds)]
+    words = ["--seeds", seeds if isinstance(seeds, str) else ",".join(str(whole("seeds", seed, 0)) for seed in seeds)]
     for text in vary:
         words += ["--vary", text]
     words += ["--samples", str(samples)] if samples else []

@@ -22,12 +22,9 @@ def look_at(position: ArrayLike, target: ArrayLike) -> NDArray[np.float64]:
 
 def matrix(of: ArrayLike) -> NDArray[np.float64]:
     """The pose as a 4x4 matrix: world from body."""
-    x, y, z, qw, qx, qy, qz = np.asarray(of, float)
     m = np.eye(4)
-    m[:3, :3] = [[1 - 2 * (qy * qy + qz * qz), 2 * (qx * qy - qw * qz), 2 * (qx * qz + qw * qy)],
-                 [2 * (qx * qy + qw * qz), 1 - 2 * (qx * qx + qz * qz), 2 * (qy * qz - qw * qx)],
-                 [2 * (qx * qz - qw * qy), 2 * (qy * qz + qw * qx), 1 - 2 * (qx * qx + qy * qy)]]
-    m[:3, 3] = [x, y, z]
+    m[:3, :3] = _core._rotate(of, m[:3, :3]).T
+    m[:3, 3] = np.asarray(of, float)[:3]
     return m
 
 

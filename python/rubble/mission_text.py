@@ -26,7 +26,7 @@ def _mistake(key: str, message: str, expected: str) -> _core.InputError:
 
 
 def _lua_text(text: str) -> str:
-    escaped = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\0": "\\0"}
+    escaped = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\0": "\\000"}
     return '"' + "".join(escaped.get(c, c) for c in text) + '"'
 
 

@@ -52,7 +52,8 @@ class RobotWorld:
 
 class Session:
     """The robots of the pile's own mission, with its surroundings, from its time 0: what `rubble run` does, step by step.
-    Samples have the bits of the recording. depth: whether cameras on robots give exact depth, by rays. observed: whether
+    Samples have the bits of the recording, except the depth of cameras with `shutter.readout`: here it is that of one pose for all
+    rows, the recorded one goes row by row. depth: whether cameras on robots give exact depth, by rays. observed: whether
     observe() gives samples; without, steps are faster."""
 
     def __init__(self, pile: _core.Pile, depth: bool = False, threads: int = 0, observed: bool = True) -> None:

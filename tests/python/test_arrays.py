@@ -98,6 +98,16 @@ class Arithmetic(unittest.TestCase):
         np.testing.assert_allclose(rubble.rotate(at, rubble.rotate(at, rows), back=True), rows, atol=1e-14)
         np.testing.assert_allclose(rubble.matrix(rubble.compose(at, at)), rubble.matrix(at) @ rubble.matrix(at), atol=1e-13)
 
+    def test_rotations_need_no_unit_length(self):
+        of = [1, 2, 3, 1, 1, 0, 0]
+        turn = rubble.matrix(of)
+        np.testing.assert_allclose(turn, [[1, 0, 0, 1], [0, 0, -1, 2], [0, 1, 0, 3], [0, 0, 0, 1]], atol=1e-15)
+        np.testing.assert_array_equal(rubble.rotate(of, np.eye(3)), turn[:3, :3].T)
+        for wrong in ([0] * 7, [0, 0, 0, np.nan, 0, 0, 0], [np.inf, 0, 0, 1, 0, 0, 0], [0] * 6):
+            with self.assertRaises(rubble.InputError) as raised:
+                rubble.matrix(wrong)
+            self.assertEqual(raised.exception.key, "pose")
+
     def test_of_episodes_uses_no_function_that_differs_between_builds(self):
         """Products of matrices, cos and the like have other last bits in another numpy or C library."""
         banned = re.compile(r" @ |\.dot\(|linalg|einsum|matmul|(np|math)\.(sin|cos|tan|arc\w+|a?(sin|cos|tan)h?|atan2|hypot|exp|log\w*|power|mean|std|var)\b")

@@ -72,13 +72,25 @@ class Batches(unittest.TestCase):
         batch.step(batch.action_space.sample())
         self.assertEqual(batch.render(), (None, None))
 
+    def test_seeds_may_be_of_numpy(self):
+        batch = Batch(lambda: CrawlerNav(**KINDS[CrawlerNav]), 2)
+        first = batch.reset(seed=3)[0]
+        for seed in (np.int64(3), np.array(3), np.array([3, 4]), [np.int32(3), 4], range(3, 5), iter([3, 4])):
+            np.testing.assert_array_equal(first["goal"], batch.reset(seed=seed)[0]["goal"])
+        batch.reset(seed=[None, 4])
+        for seed in (-1, 1.5, "34", [3, -1], np.array([3.0, 4.0]), [3, True]):
+            with self.assertRaises(rubble.InputError, msg=repr(seed)) as raised:
+                batch.reset(seed=seed)
+            self.assertEqual(raised.exception.key, "seed")
+
     def test_mistakes_are_named(self):
         make = lambda: CrawlerNav(**KINDS[CrawlerNav])
         batch = Batch(make, 2)
         with self.assertRaises(RuntimeError):
             batch.step(np.zeros((2, 4)))
         batch.reset(seed=1)
-        for call, key in ((lambda: Batch(make, 0), "count"), (lambda: Batch(make, 2, 0), "threads"),
+        for call, key in ((lambda: Batch(make, 0), "count"), (lambda: Batch(make, 2.0), "count"),
+                          (lambda: Batch(make, 2, 0), "threads"),
                           (lambda: batch.reset(seed=[1]), "seed"), (lambda: batch.step(np.zeros(4)), "action"),
                           (lambda: batch.step(np.full((2, 4), 3.0)), "action"),
                           (lambda: Batch(lambda: CrawlerNav(randomization=3), 2), "randomization")):

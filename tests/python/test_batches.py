@@ -56,6 +56,12 @@ class OnThisMachine(unittest.TestCase):
         os.remove(os.path.join(out, "seed_2", "in_the_way"))
         self.assertEqual([row["status"] for row in rubble.batch(MISSION, [1, 2], out, settle=True).result()], ["done", "done"])
 
+    def test_seeds_are_whole_numbers(self):
+        for seeds in ([1.7], [1, -1], ["1"], [True]):
+            with self.assertRaises(rubble.InputError, msg=repr(seeds)) as raised:
+                rubble.batch(MISSION, seeds, os.path.join(self.folder, "out"), settle=True, executor=Refusing())
+            self.assertEqual(raised.exception.key, "seeds")
+
     def test_results_go_to_any_file_system(self):
         try:
             import fsspec

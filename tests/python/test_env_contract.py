@@ -8,6 +8,7 @@ import unittest
 
 import numpy as np
 
+import rubble
 from rubble.envs import CrawlerNav, SnakeExplore, VoidExplore
 from rubble.envs.spaces import Box
 
@@ -122,6 +123,16 @@ class Contract(unittest.TestCase):
             self.assertTrue(same(second, other.reset()[0]), "the second episode, too, follows from the seed")
             self.assertTrue(same(third, other.reset()[0]))
             self.assertFalse(all(same(first, env.reset(seed=seed)[0]) for seed in range(12)), "no seed changes anything")
+
+    def test_seeds_are_whole_numbers_of_at_least_0(self):
+        for kind in OPTIONS:
+            env = make(kind)
+            first = env.reset(seed=5)[0]
+            self.assertTrue(same(first, env.reset(seed=np.int64(5))[0]))
+            for seed in (-1, 1.5, np.float64(2), "1", True, np.bool_(True)):
+                with self.assertRaises(rubble.InputError, msg=repr(seed)) as raised:
+                    env.reset(seed=seed)
+                self.assertEqual(raised.exception.key, "seed")
 
     def test_an_episode_is_cut_off_at_its_last_step_and_not_before(self):
         for kind in OPTIONS:

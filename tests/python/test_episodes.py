@@ -85,6 +85,32 @@ class Episodes(unittest.TestCase):
         info = json.loads(read(self.path, "meta/info.json"))
         self.assertEqual((info["total_episodes"], info["total_frames"], len(rows)), (3, 6, 6))
 
+    def test_nothing_is_recorded_without_reset_or_after_close(self):
+        env = LerobotRecorder(VoidExplore(pile_seeds=[1], size=16, max_steps=2), self.path)
+        with self.assertRaisesRegex(RuntimeError, "reset"):
+            env.step([0, 0, 0, 0])
+        env.reset(seed=np.int64(1))
+        for _ in range(2):
+            ended = env.step([0, 0, 0, 0])[3]
+        self.assertTrue(ended)
+        with self.assertRaisesRegex(RuntimeError, "reset"):
+            env.step([0, 0, 0, 0])
+        env.reset(seed=2)
+        env.step([0, 0, 0, 0])
+        with self.assertRaises(rubble.InputError):
+            env.reset(seed=-1)
+        env.step([0, 0, 0, 0])  # the episode goes on
+        env.close()
+        for call in (lambda: env.step([0, 0, 0, 0]), env.reset):
+            with self.assertRaisesRegex(RuntimeError, "close"):
+                call()
+        info = json.loads(read(self.path, "meta/info.json"))
+        self.assertEqual((info["total_episodes"], info["total_frames"]), (2, 4))
+
+    def test_the_rate_is_that_of_the_steps(self):
+        record(self.path, CrawlerNav(pile_seeds=[1], rays=16, period=0.01), [1], 2)  # of 2/240 s
+        self.assertEqual(json.loads(read(self.path, "meta/info.json"))["fps"], 120)
+
     def test_mistakes_are_named(self):
         with self.assertRaisesRegex(rubble.InputError, "depth of shape .16, 16.; make the environment without metres"):
             LerobotRecorder(VoidExplore(pile_seeds=[1], size=16, metres=True), self.path)

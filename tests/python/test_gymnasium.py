@@ -35,6 +35,16 @@ class Gymnasium(unittest.TestCase):
                 warnings.simplefilter("error")
                 check_env(make(name, render_mode="rgb_array").unwrapped)
 
+    def test_seeds_are_those_of_rubble(self):
+        import rubble.envs
+        for name in NAMES:
+            env = make(name)
+            for seed in (-1, 1.5):
+                with self.assertRaises(rubble.InputError) as raised:
+                    env.reset(seed=seed)
+                self.assertEqual(raised.exception.key, "seed")
+            env.reset(seed=np.int64(3))
+
     def test_the_limit_of_make_ends_episodes(self):
         import rubble.envs  # noqa: F401
         for name in NAMES:

@@ -49,6 +49,9 @@ class Text(unittest.TestCase):
             line = rubble.Mission(packs=[text]).to_lua()
             self.assertIn("packs", line)
             self.assertNotIn("\n", line.split("packs", 1)[1].strip("\n"))
+        self.assertIn('"a\\0001"', rubble.Mission(packs=["a\x001"]).to_lua())  # not the one character \01
+        with self.assertRaisesRegex(rubble.InputError, "a.x001"):
+            rubble.Mission(packs=["a\x001"]).check()
         self.assertIn('["a b"] = 1', m.Robot(efforts={"a b": 1.0}).given() and rubble.Mission(robots=[m.Robot(efforts={"a b": 1})]).to_lua())
 
     def test_mistakes_name_their_key(self):

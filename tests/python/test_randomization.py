@@ -9,6 +9,7 @@ import rubble
 from rubble import _core
 from rubble.envs import (Calibration, Choice, CrawlerNav, Light, LogUniform, Materials, Normal, Poses, Randomization, SnakeExplore,
                          TeamNav, Uniform, VoidExplore, Weather)
+from rubble.envs.randomization import Drawn
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from shared_piles import share_piles
@@ -74,6 +75,26 @@ class Distributions(unittest.TestCase):
     def test_the_bits_are_those_of_every_machine(self):
         self.assertEqual([of.draw(_core._Random(7, "calibration.fov_deg")).hex()
                           for of in (Uniform(0, 1), Normal(0, 1), LogUniform(1, 10))], BITS)
+
+    def test_numbers_of_numpy_are_those_of_python(self):
+        """Their text and arithmetic would depend on the numpy."""
+        for kind in (np.float32, np.float64):
+            low, high = kind(0.4), kind(0.6)
+            for of, plain in ((Uniform(low, high), Uniform(float(low), float(high))),
+                              (LogUniform(low, high), LogUniform(float(low), float(high))),
+                              (Normal(high, kind(0.01), low, kind(1)), Normal(float(high), float(kind(0.01)), float(low), 1.0)),
+                              (Choice([low, high], [kind(0.1), kind(0.2)]), Choice([float(low), float(high)], [float(kind(0.1)), float(kind(0.2))])),
+                              (Choice([np.int64(1), np.int32(2)]), Choice([1, 2]))):
+                self.assertEqual(repr(of), repr(plain))
+                for value, wanted in zip(self.draw(of, 20), self.draw(plain, 20)):
+                    self.assertIs(type(value), type(wanted))
+                    self.assertEqual(value, wanted)
+        drawn = Drawn(Randomization(weather=Weather(fog_density=np.float64(0.25), rain_mm_h=Choice(list(np.float64([3.5])))),
+                                    light=Light(sky=np.str_("clear"))), ("weather.*", "light.*"), "here")
+        drawn.draw(np.random.default_rng(1))
+        self.assertEqual(drawn.overrides(), ["light.sky=clear", "light.type=sun", "air.fog_density=0.25", "air.rain_mm_h=3.5"])
+        with self.assertRaises(rubble.InputError):
+            Choice([np.bool_(True)])
 
     def test_mistakes_are_named(self):
         for make, key, text in (

@@ -6,7 +6,7 @@ import unittest
 import numpy as np
 
 import rubble
-from rubble.envs import Calibration, Materials, Poses, Randomization, TeamNav, Uniform
+from rubble.envs import Calibration, Choice, Materials, Poses, Randomization, TeamNav, Uniform
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from shared_piles import share_piles
@@ -109,6 +109,28 @@ class Team(unittest.TestCase):
         self.assertEqual(picture.shape, (512, 512, 3))
         for colour in ((214, 72, 40), (30, 150, 70)):
             self.assertGreater(np.all(picture == colour, axis=2).sum(), 2 * 9)
+
+    def test_seeds_periods_and_arguments_are_checked(self):
+        for key, values in {"pile_seeds": ([], [1.7]), "period": (0, 61), "max_steps": (0, 1.5), "speed": (0, float("nan")), "turn_rate": (-1,),
+                            "reach": (0, float("inf")), "around": (-1,), "apart": (-1, float("nan")), "rays": (0,)}.items():
+            for value in values:
+                with self.assertRaises(rubble.InputError, msg=f"{key}={value!r}") as raised:
+                    TeamNav(**{"mission": FLAT, "pile_seeds": [1], key: value})
+                self.assertEqual(raised.exception.key, key)
+        env = TeamNav(mission=FLAT, pile_seeds=[1], rays=16, period=0.01)
+        self.assertEqual(env.metadata["render_fps"], 120)
+        env.reset(seed=np.int64(1))
+        env.step({name: [0, 0] for name in env.agents})
+        self.assertAlmostEqual(env._session.time, 1 / 120, places=9)
+        for seed in (-1, 1.5):
+            with self.assertRaises(rubble.InputError) as raised:
+                env.reset(seed=seed)
+            self.assertEqual(raised.exception.key, "seed")
+
+    def test_friction_may_be_a_number_of_numpy(self):
+        env = TeamNav(mission=FLAT, pile_seeds=[1], rays=16, randomization=Randomization(
+            materials=Materials(friction=Choice(list(np.linspace(0.4, 0.6, 3))))))
+        self.assertIs(type(env.reset(seed=1)[1]["a"]["randomization"]["materials.friction"]), float)
 
     def test_mistakes_are_named(self):
         one = 'return rubble.mission { pile = { layers = 0 }, robots = { rubble.robot.rover { name = "a" } } }'

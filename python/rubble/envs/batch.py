@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 
-from .randomization import mistake
+from ..arguments import checked_seed, mistake, whole
 from .spaces import AutoresetMode, VectorEnv, batch_space
 
 
@@ -42,11 +42,8 @@ class Batch(VectorEnv):
 
     def __init__(self, make, count, threads=None):
         """threads: None: all processors."""
-        if not isinstance(count, int) or count < 1:
-            raise mistake("count", f"expected a whole number of at least 1: found {count!r}")
-        threads = min(count, len(os.sched_getaffinity(0)) if threads is None else threads)
-        if threads < 1:
-            raise mistake("threads", f"expected a whole number of at least 1, or None: found {threads!r}")
+        count = whole("count", count, 1)
+        threads = min(count, len(os.sched_getaffinity(0)) if threads is None else whole("threads", threads, 1))
         self._workers = [concurrent.futures.ThreadPoolExecutor(1) for _ in range(threads)]
         self.num_envs, self.envs = count, [None] * count
         self._each(lambda i: self.envs.__setitem__(i, make()))
@@ -74,8 +71,11 @@ class Batch(VectorEnv):
 
     def reset(self, *, seed=None, options=None):
         """seed: of the first environment, and the next numbers of the others; or a list of one for each."""
-        seeds = [None] * self.num_envs if seed is None else (
-            [seed + i for i in range(self.num_envs)] if isinstance(seed, (int, np.integer)) else list(seed))
+        try:
+            seeds = [None] * self.num_envs if seed is None else [checked_seed(one) for one in seed]
+        except TypeError:  # not a list
+            first = checked_seed(seed)
+            seeds = [first + i for i in range(self.num_envs)]
         if len(seeds) != self.num_envs:
             raise mistake("seed", f"expected a number or a list of {self.num_envs}: found a list of {len(seeds)}")
         results = self._each(lambda i: self.envs[i].reset(seed=seeds[i], options=options))

@@ -34,7 +34,7 @@ Arguments:
   pile_seeds  seeds from which each episode draws its pile
   speed  largest forward velocity; m/s
   turn_rate  largest turn rate; rad/s
-  period  duration of a step; s
+  period  duration of a step, rounded to whole steps of 1/240 s; s
   max_steps  longest episode, in steps; None: no limit
   reach  distance at which the goal is reached; m
   around  distance of start and goal from the circle around the pile; m
@@ -46,13 +46,14 @@ Arguments:
 import numpy as np
 
 from .. import _core, geometry
+from ..arguments import checked_seed, checked_seeds, real
 from .ground_senses import EYE, GROUND_KEYS, MOST, GroundSenses, bearing, is_fallen
 from .pictures import Section
 from .randomization import Drawn
-from .robot_worlds import RobotWorlds, moved_start
+from .robot_worlds import RobotWorlds, moved_start, round_period
 from .settled import find_pile
 from .spaces import Box, Dict, Env
-from .void_world import checked_action, is_over
+from .void_world import checked_action, checked_limit, is_over
 
 MISSION = """
 return rubble.mission {
@@ -68,10 +69,12 @@ class CrawlerNav(Env):
 
     def __init__(self, mission=MISSION, pile_seeds=range(1, 4), speed=0.6, turn_rate=1.5, period=0.1, max_steps=600,
                  reach=0.3, around=1.5, rays=64, max_range=8.0, threads=1, randomization=None, render_mode=None):
-        self.render_mode, self.metadata = render_mode, {**self.metadata, "render_fps": 1 / period}
-        self._mission, self._seeds, self._threads = mission, [int(s) for s in pile_seeds], threads
-        self._speed, self._turn_rate, self._period = speed, turn_rate, period
-        self._max_steps, self._reach, self._around = max_steps, reach, around
+        self._period, rate = round_period(period)
+        self.render_mode, self.metadata = render_mode, {**self.metadata, "render_fps": rate}
+        self._mission, self._seeds, self._threads = mission, checked_seeds("pile_seeds", pile_seeds), threads
+        self._speed, self._turn_rate = real("speed", speed), real("turn_rate", turn_rate, zero=True)
+        self._max_steps, self._reach = checked_limit(max_steps), real("reach", reach)
+        self._around = real("around", around, zero=True)
         self._robot, self._piles = None, {}
         self._drawn = Drawn(randomization, GROUND_KEYS, "CrawlerNav")
         self._robots = RobotWorlds("crawler", threads)
@@ -87,7 +90,7 @@ class CrawlerNav(Env):
         return self._piles[seed]
 
     def reset(self, *, seed=None, options=None):
-        super().reset(seed=seed)
+        super().reset(seed=checked_seed(seed))
         pile_seed = int(self.np_random.choice(self._seeds))
         settled = self._find_pile(pile_seed)
         self._pile = settled.pile

@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from .. import _core
-from .randomization import mistake
+from ..arguments import checked_seed, mistake
 from .spaces import Env
 
 
@@ -55,20 +55,25 @@ class LerobotRecorder(Env):
         os.makedirs(os.path.dirname(path), exist_ok=True)
         self._dataset = _core._LerobotDataset(path, ["observation.images." + name for name in self._videos], features,
                                               type(own).__name__, task or getattr(own, "task", type(own).__name__), self._rate)
-        self._steps = 0
+        self._steps, self._running = 0, False
 
     @property
     def unwrapped(self):
         return self.env.unwrapped
 
     def reset(self, *, seed=None, options=None):
+        self._expect_open()
+        seed = checked_seed(seed)
         self._end(False, False)
         self._last, self._info = self.env.reset(seed=seed, options=options)
         self._begin = {"seed": seed, "reset": self._info}
-        self._return = 0.0
+        self._return, self._running = 0.0, True
         return self._last, self._info
 
     def step(self, action):
+        self._expect_open()
+        if not self._running:
+            raise RuntimeError("reset() comes before the first step() of each episode")
         observation, reward, terminated, truncated, info = self.env.step(action)
         since = round(self._steps * 1e9 / self._rate)
         for number, name in enumerate(self._videos):
@@ -83,11 +88,15 @@ class LerobotRecorder(Env):
             self._end(terminated, truncated)
         return observation, reward, terminated, truncated, info
 
+    def _expect_open(self):
+        if self._dataset is None:
+            raise RuntimeError("the dataset is complete: nothing is recorded after close()")
+
     def _end(self, terminated, truncated):
         if self._steps:
             about = {**self._begin, "last": self._info, "return": self._return, "terminated": bool(terminated), "truncated": bool(truncated)}
             self._dataset.end_episode(json.dumps(about, sort_keys=True, default=_plain))
-        self._steps = 0
+        self._steps, self._running = 0, False
 
     def render(self):
         return self.env.render()

@@ -18,16 +18,25 @@ from typing import Any, Optional, Sequence, Union
 import numpy as np
 
 from .. import _core
-
-
-def mistake(key: str, text: str) -> _core.InputError:
-    error = _core.InputError(f"{key}: {text}")
-    error.key = key
-    return error
+from ..arguments import mistake
 
 
 def _is_number(value: Any) -> bool:
     return isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _plain(value: Any) -> Any:
+    """A number or text of numpy as Python's: arithmetic and text do not depend on the numpy."""
+    if isinstance(value, np.floating):
+        return float(value)
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _make_plain(of: Any) -> None:
+    """All members of a dataclass."""
+    for one in fields(of):
+        value = getattr(of, one.name)
+        object.__setattr__(of, one.name, tuple(map(_plain, value)) if isinstance(value, tuple) else _plain(value))
 
 
 class _Distribution:
@@ -43,6 +52,7 @@ class Uniform(_Distribution):
     high: float
 
     def __post_init__(self) -> None:
+        _make_plain(self)
         self._expect(_is_number(self.low) and _is_number(self.high) and self.low <= self.high, "two numbers, low <= high")
 
     def limits(self) -> tuple[float, float]:
@@ -59,6 +69,7 @@ class LogUniform(_Distribution):
     high: float
 
     def __post_init__(self) -> None:
+        _make_plain(self)
         self._expect(_is_number(self.low) and _is_number(self.high) and 0 < self.low <= self.high,
                      "two numbers, 0 < low <= high")
 
@@ -79,6 +90,7 @@ class Normal(_Distribution):
     high: Optional[float] = None
 
     def __post_init__(self) -> None:
+        _make_plain(self)
         self._expect(_is_number(self.mean) and _is_number(self.std) and self.std >= 0
                      and all(limit is None or _is_number(limit) for limit in (self.low, self.high)),
                      "a mean, a standard deviation of at least 0, and limits that are numbers")
@@ -103,10 +115,12 @@ class Choice(_Distribution):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "values", tuple(self.values) if isinstance(self.values, (list, tuple, range)) else ())
+        if self.weights is not None:
+            object.__setattr__(self, "weights", tuple(self.weights))
+        _make_plain(self)
         self._expect(len(self.values) > 0 and all(isinstance(v, str) or _is_number(v) for v in self.values),
                      "a list of numbers or texts, not empty")
         if self.weights is not None:
-            object.__setattr__(self, "weights", tuple(self.weights))
             self._expect(len(self.weights) == len(self.values) and all(_is_number(w) and w >= 0 for w in self.weights)
                          and sum(self.weights) > 0, "as many weights as values, at least 0, one of them above 0")
 
@@ -132,6 +146,7 @@ class _Part:
     """Keys that belong together; each is checked when the part is made."""
 
     def __post_init__(self) -> None:
+        _make_plain(self)
         for one in fields(self):  # type: ignore[arg-type]  # its classes are dataclasses
             self._check(f"{type(self).__name__.lower()}.{one.name}", getattr(self, one.name), one.metadata)
 

@@ -2,6 +2,7 @@
 import math
 
 from .. import geometry
+from ..arguments import real
 from ..robots import RobotWorld
 
 
@@ -23,6 +24,12 @@ class RobotWorlds:
         else:
             world.reset(pose)
         return world
+
+
+def round_period(period):
+    """(seconds, 1/s) of the whole steps of 1/240 s that RobotWorld and Session make of it."""
+    steps = max(1, int(real("period", period, most=60) / (1 / 240) + 0.5))
+    return steps / 240, 240 / steps
 
 
 def moved_start(base, drawn):

@@ -35,7 +35,7 @@ Arguments:
   size  width and height of the depth image; pixel
   fov_deg  field of view; degree
   max_range  range of the depth camera; m
-  period  duration of a step; s
+  period  duration of a step, rounded to whole steps of 1/240 s; s
   max_steps  longest episode, in steps; None: no limit
   enough  share of the void at which the episode ends
   voxel  edge of the cells of the void; m
@@ -48,12 +48,13 @@ import math
 import numpy as np
 
 from .. import _core, geometry
+from ..arguments import checked_seed, mistake, real
 from .pictures import depth_space
-from .randomization import Drawn, mistake
+from .randomization import Drawn
 from .spaces import Box, Dict, Env
-from .robot_worlds import RobotWorlds
+from .robot_worlds import RobotWorlds, round_period
 from .void_explore import MISSION
-from .void_world import VoidWorld, VoidWorlds, checked_action, is_over
+from .void_world import VoidWorld, VoidWorlds, checked_action, checked_limit, is_over
 
 _JOINTS = 15
 _LENGTH = 0.95  # of the snake; m
@@ -69,9 +70,10 @@ class SnakeExplore(Env):
     def __init__(self, mission=MISSION, pile_seeds=range(1, 6), radius=0.12, size=36, fov_deg=90.0, max_range=4.0,
                  period=0.1, max_steps=600, enough=0.95, voxel=0.1, metres=False, threads=1,
                  randomization=None, render_mode=None):
-        self.render_mode, self.metadata = render_mode, {**self.metadata, "render_fps": 1 / period}
-        self._radius, self._period, self._max_steps, self._enough = radius, period, max_steps, enough
-        self._robot = None
+        self._period, rate = round_period(period)
+        self.render_mode, self.metadata = render_mode, {**self.metadata, "render_fps": rate}
+        self._radius, self._max_steps, self._enough = radius, checked_limit(max_steps), real("enough", enough, most=1)
+        self._robot, max_range = None, real("max_range", max_range)
         self._drawn = Drawn(randomization, self.randomized, "SnakeExplore")
         self._worlds = VoidWorlds(pile_seeds, lambda seed: VoidWorld(mission, seed, radius, voxel, size, fov_deg, max_range,
                                                                      False, threads, metres, self._drawn))
@@ -121,7 +123,7 @@ class SnakeExplore(Env):
         return None
 
     def reset(self, *, seed=None, options=None):
-        super().reset(seed=seed)
+        super().reset(seed=checked_seed(seed))
         self._world, pile_seed = self._worlds.choose(self.np_random, self._radius)
         self._drawn.draw(self.np_random)
         self._world.begin()

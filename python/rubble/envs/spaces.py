@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import _core
+from ..arguments import checked_seed
 
 try:
     from gymnasium import Env
@@ -19,11 +19,7 @@ try:
 except ImportError:
 
     def make_random(seed):
-        if seed is not None and not (isinstance(seed, (int, np.integer)) and seed >= 0):
-            error = _core.InputError(f"seed: expected a whole number of at least 0: found {seed!r}")
-            error.key = "seed"
-            raise error
-        sequence = np.random.SeedSequence(seed)
+        sequence = np.random.SeedSequence(checked_seed(seed))
         return np.random.Generator(np.random.PCG64(sequence)), sequence.entropy
 
     class Env:  # type: ignore[no-redef,unused-ignore]

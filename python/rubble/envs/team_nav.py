@@ -33,7 +33,7 @@ Arguments:
   pile_seeds  seeds from which each episode draws its pile
   speed  largest forward velocity; m/s
   turn_rate  largest turn rate; rad/s
-  period  duration of a step; s
+  period  duration of a step, rounded to whole steps of 1/240 s; s
   max_steps  longest episode, in steps; None: no limit
   reach  distance at which the goal is reached; m
   around  distance of start and goals from the circle around the pile; m
@@ -46,14 +46,15 @@ Arguments:
 import numpy as np
 
 from .. import _core, geometry
+from ..arguments import checked_seed, checked_seeds, mistake, real
 from ..robots import Session
 from .ground_senses import EYE, GROUND_KEYS, GroundSenses, bearing, bearing_box, is_fallen, within_bearing
 from .pictures import Section
-from .randomization import Drawn, mistake
-from .robot_worlds import moved_start
+from .randomization import Drawn
+from .robot_worlds import moved_start, round_period
 from .settled import find_pile
 from .spaces import Box, Dict, ParallelEnv, make_random
-from .void_world import checked_action, is_over
+from .void_world import checked_action, checked_limit, is_over
 
 MISSION = """
 return rubble.mission {
@@ -73,10 +74,12 @@ class TeamNav(ParallelEnv):
 
     def __init__(self, mission=MISSION, pile_seeds=range(1, 4), speed=0.6, turn_rate=1.5, period=0.1, max_steps=600,
                  reach=0.3, around=1.5, apart=0.8, rays=64, max_range=8.0, threads=1, randomization=None, render_mode=None):
-        self.render_mode, self.metadata = render_mode, {**self.metadata, "render_fps": 1 / period}
-        self._mission, self._seeds, self._threads = mission, [int(s) for s in pile_seeds], threads
-        self._speed, self._turn_rate, self._period = speed, turn_rate, period
-        self._max_steps, self._reach, self._around, self._apart = max_steps, reach, around, apart
+        self._period, rate = round_period(period)
+        self.render_mode, self.metadata = render_mode, {**self.metadata, "render_fps": rate}
+        self._mission, self._seeds, self._threads = mission, checked_seeds("pile_seeds", pile_seeds), threads
+        self._speed, self._turn_rate = real("speed", speed), real("turn_rate", turn_rate, zero=True)
+        self._max_steps, self._reach = checked_limit(max_steps), real("reach", reach)
+        self._around, self._apart = real("around", around, zero=True), real("apart", apart, zero=True)
         self._drawn = Drawn(randomization, GROUND_KEYS, "TeamNav")
         self._senses, self._random, self._sessions = GroundSenses(rays, max_range, self._drawn), None, {}
         _, self._session = self._find_session(self._seeds[0])
@@ -117,6 +120,7 @@ class TeamNav(ParallelEnv):
         return settled, session
 
     def reset(self, seed=None, options=None):
+        seed = checked_seed(seed)
         if seed is not None or self._random is None:
             self._random, _ = make_random(seed)
         pile_seed = int(self._random.choice(self._seeds))

@@ -50,10 +50,11 @@ Arguments:
 import numpy as np
 
 from .. import _core, geometry
+from ..arguments import checked_seed, real
 from .pictures import depth_space
 from .randomization import Drawn
 from .spaces import Box, Dict, Env
-from .void_world import VoidWorld, VoidWorlds, checked_action, is_over
+from .void_world import VoidWorld, VoidWorlds, checked_action, checked_limit, is_over
 
 MISSION = """
 return rubble.mission {
@@ -70,9 +71,11 @@ class VoidExplore(Env):
     def __init__(self, mission=MISSION, pile_seeds=range(1, 6), radius=0.15, size=64, fov_deg=90.0, max_range=5.0,
                  speed=0.5, turn_rate=1.0, period=0.2, max_steps=500, enough=0.95, voxel=0.1, metres=False, colour=False,
                  threads=1, randomization=None, render_mode=None):
-        self.render_mode, self.metadata = render_mode, {**self.metadata, "render_fps": 1 / period}
-        self._radius, self._speed, self._turn_rate, self._period = radius, speed, turn_rate, period
-        self._max_steps, self._enough = max_steps, enough
+        self._period = real("period", period)
+        self.render_mode, self.metadata = render_mode, {**self.metadata, "render_fps": 1 / self._period}
+        self._radius, self._speed, self._turn_rate = radius, real("speed", speed), real("turn_rate", turn_rate, zero=True)
+        self._max_steps, self._enough = checked_limit(max_steps), real("enough", enough, most=1)
+        max_range = real("max_range", max_range)
         self._drawn = Drawn(randomization, self.randomized if colour else self.randomized[:2],
                             "VoidExplore" if colour else "VoidExplore without colour")
         self._worlds = VoidWorlds(pile_seeds, lambda seed: VoidWorld(mission, seed, radius, voxel, size, fov_deg, max_range,
@@ -89,7 +92,7 @@ class VoidExplore(Env):
         self.observation_space = Dict(spaces)
 
     def reset(self, *, seed=None, options=None):
-        super().reset(seed=seed)
+        super().reset(seed=checked_seed(seed))
         self._world, pile_seed = self._worlds.choose(self.np_random, self._radius)
         self._drawn.draw(self.np_random)
         self._world.begin()

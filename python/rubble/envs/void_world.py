@@ -2,9 +2,9 @@
 import numpy as np
 
 from .. import _core
+from ..arguments import checked_seeds, mistake, whole
 from ..sensors import Renderer
 from .pictures import Section, to_levels, upscale
-from .randomization import mistake
 from .settled import find_pile
 
 _SIZE = 256     # of the pictures of render(), in pixels
@@ -80,7 +80,7 @@ class VoidWorlds:
     """The worlds of some seeds, each settled when it is first asked for, and kept."""
 
     def __init__(self, seeds, make):
-        self._seeds, self._make, self._made = [int(s) for s in seeds], make, {}
+        self._seeds, self._make, self._made = checked_seeds("pile_seeds", seeds), make, {}
 
     def choose(self, random, radius):
         """One with a void, drawn by `random`, and its seed."""
@@ -100,6 +100,10 @@ def checked_action(action, count):
     if action.shape != (count,) or not np.all(np.isfinite(action)) or not np.all(np.abs(action) <= 1 + 1e-6):
         raise mistake("action", f"expected {count} numbers from -1 to 1: found {action!r}")
     return np.clip(action, -1, 1)
+
+
+def checked_limit(max_steps):
+    return None if max_steps is None else whole("max_steps", max_steps, 1)
 
 
 def is_over(steps, max_steps):

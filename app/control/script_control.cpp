@@ -1,5 +1,6 @@
 #include "app/control/script_control.h"
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -117,7 +118,7 @@ RobotController ScriptControl::controller_of(std::size_t robot, const RobotModel
       if (auto unheld = find_unheld(model, {}, answer.leg.joints.size(), "joints")) mistakes.push_back(std::move(*unheld));
     }
     for (Diagnostic& d : mistakes) {
-      d.message += ", at t = " + format_number(sense.time) + " s";
+      d.message += ", at t = " + format_number(std::round(sense.time * 1000) / 1000) + " s";
       d.key = d.key.empty() ? key : key + ": " + d.key;
       if (d.line > 0) continue;
       d.file = state.mission.provenance.script.path;

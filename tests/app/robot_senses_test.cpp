@@ -52,7 +52,7 @@ std::vector<double> told_by(const std::string& script, const std::string& option
   std::vector<double> numbers;
   if (at == std::string::npos) return numbers;
   std::istringstream words(run.err.substr(at + 5));
-  for (std::string word; words >> word && word != "end";) numbers.push_back(std::strtod(word.c_str(), nullptr));
+  for (std::string word; words >> word && word.rfind("end", 0) != 0;) numbers.push_back(std::strtod(word.c_str(), nullptr));
   return numbers;
 }
 

@@ -143,7 +143,7 @@ AirTransfer::Colour AirTransfer::between(const std::vector<Colour>& grid, const 
   if (sum < kLeastShare) return grid[otherwise];
   out.c *= 1 / sum;
   if (!in_stops) return out;
-  for (float& w : weights) w *= 1 / sum;
+  for (float& share : weights) share *= 1 / sum;
   const float factor = factor_in_stops(light, weights);
   out.c *= Four{factor, factor, factor, 1};
   return out;

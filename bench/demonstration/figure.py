@@ -57,7 +57,8 @@ def draw(found, title, path):
 
 
 def draw_way(flown, path):
-    """What the camera sees on its way in, without a lamp and with lamps: the same places side by side."""
+    """What the camera sees on its way in, without a lamp and with lamps: the same places side by side. False: no picture is
+    kept."""
     sheets = {}
     for row in plan.ROWS:
         if row.name in ON_THE_WAY:
@@ -65,7 +66,7 @@ def draw_way(flown, path):
             if files:
                 sheets[row] = [plt.imread(file) for file in files]
     if not sheets:
-        return
+        return False
     height, width = next(iter(sheets.values()))[0].shape[:2]
     columns = len(flights.SHOWN)
     figure, axes = plt.subplots(len(sheets), columns, figsize=(3.2 * columns, 3.2 * height / width * len(sheets)), squeeze=False)
@@ -77,3 +78,4 @@ def draw_way(flown, path):
                      bbox={"facecolor": "black", "alpha": 0.6, "pad": 2})
     figure.subplots_adjust(0, 0, 1, 1, 0.01, 0.015)
     figure.savefig(path, dpi=100, pil_kwargs={"quality": 88})
+    return True

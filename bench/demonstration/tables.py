@@ -127,4 +127,4 @@ def write(work, kept):
         document_marks.write_between_marks(PAGE, name, text)
     import figure
     figure.draw(found[sizes[0]], plan.SIZES[sizes[0]].title, FIGURE)
-    figure.draw_way(flights.Flights(work, plan.SIZES[sizes[0]]), WAY)
+    any(figure.draw_way(flights.Flights(work, plan.SIZES[size]), WAY) for size in sizes)

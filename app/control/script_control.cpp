@@ -112,7 +112,8 @@ RobotController ScriptControl::controller_of(std::size_t robot, const RobotModel
     } else {
       read_table(answer_schema(kind_of(item), model, answer), returned, mistakes);
       const std::pair<const char*, std::size_t> counts[] = {
-          {"flippers", answer.leg.flippers.size()}, {"joints", answer.leg.joints.size()}, {"speeds", answer.speeds.size()}, {"torques", answer.torques.size()}};
+          {"flippers", answer.leg.flippers.size()}, {"joints", answer.leg.joints.size()},
+          {"speeds", answer.speeds.size()}, {"torques", answer.torques.size()}};
       for (const auto& [member, count] : counts)
         if (auto surplus = find_surplus(model, count, member)) mistakes.push_back(std::move(*surplus));
       if (auto unheld = find_unheld(model, {}, answer.leg.joints.size(), "joints")) mistakes.push_back(std::move(*unheld));

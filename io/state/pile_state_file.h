@@ -14,8 +14,8 @@
 //       f64 length, f64 strength, f64 stretch that is left, f64 bending moment;
 //   since version 4, what is carried at rest: f32 force of each tie (N); u32 count of loads of contacts, each: i32 piece,
 //       i32 the other piece (-1: the ground), f32 point x y z (m, in the world), f32 force on the piece x y z (N)
-// A building of version 3 is laid without loads: what is wedged in it may come down. Piles without a building have version 2. So have older piles with buildings: they can be drawn and measured, but
-// their pieces cannot move again.
+// A building of version 3 is laid without loads: what is wedged in it may come down. Piles without a building have version 2. So have
+// older piles with buildings: they can be drawn and measured, but their pieces cannot move again.
 #pragma once
 
 #include <cstdint>

@@ -55,6 +55,8 @@ if(TARGET rubble_voids)
     kernel/geometry/voxel_grid.h
     kernel/queries/queries.h
     kernel/voids/cell_clearance.h
+    kernel/voids/cell_kinds.h
+    kernel/voids/cell_runs.h
     kernel/voids/cell_slots.h
     kernel/voids/void_map.h
     kernel/voids/void_path.h

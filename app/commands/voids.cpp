@@ -16,6 +16,7 @@
 #include "io/base/atomic_file.h"
 #include "io/voids/void_files.h"
 #include "kernel/base/parallel.h"
+#include "kernel/voids/solid_voxels.h"
 #include "kernel/voids/void_map.h"
 
 namespace rubble {
@@ -57,11 +58,15 @@ void check_radii(const std::vector<double>& radii) {
   }
 }
 
-VoidMap make_map(const FolderRequest& request, const VoidRequest& voids, Progress& progress) {
+// terrain: the indices of types that are terrain.
+Solids place_solids_of(const FolderRequest& request, std::vector<int>& terrain) {
   const FinishedRun saved = open_finished_run(request.folder);
   const AssetLibrary assets = load_assets_of(saved, request.asset_packs);
-  const PileState pile = load_pile_of(saved);
-  const std::vector<const TriangleMesh*> meshes = assets.finest_meshes();
+  terrain = assets.terrain();
+  return place_solids(load_pile_of(saved), assets.finest_meshes());
+}
+
+VoidSpace make_space(const FolderRequest& request, const VoidRequest& voids, const VoidProgress& progress) {
   VoidSpaceOptions options;
   options.voxel = voids.space.voxel;
   double largest = 0;
@@ -69,16 +74,21 @@ VoidMap make_map(const FolderRequest& request, const VoidRequest& voids, Progres
   options.rolling_radius = outside_radius_for(voids.space.outside_radius, largest);
   options.memory_limit = voids.space.memory_gib * (1 << 30);
   options.threads = request.options.threads;
-  options.scenery = assets.terrain();
-  const auto report = [&](const char* what, double from, double share) {
+  options.margin = kShownAround;
+  Solids solids = place_solids_of(request, options.scenery);
+  return calc_void_space(std::move(solids), options, progress);
+}
+
+VoidMap make_map(const FolderRequest& request, const VoidRequest& voids, Progress& progress) {
+  const auto report = [&progress](const char* what, double from, double share) {
     return [&progress, what, from, share](double done) {
       throw_if_stopped("");
       progress.update(from + share * done, what);
       return true;
     };
   };
-  options.margin = kShownAround;
-  return find_voids(calc_void_space(pile, meshes, options, report("clearance", 0, 0.6)), voids.space.radii, report("voids", 0.6, 0.4));
+  VoidSpace space = make_space(request, voids, report("clearance", 0, 0.6));
+  return find_voids(std::move(space), voids.space.radii, report("voids", 0.6, 0.4));
 }
 
 // Through the deepest place of the largest void, both ways.
@@ -96,12 +106,17 @@ void write_pictures(const VoidMap& map, const std::string& title, const std::str
   }
 }
 
-// Everything that is written, as jobs for several threads; what takes long comes first.
-std::vector<std::function<void()>> list_jobs(const VoidMap& map, int surfaces,
-                                             const std::string& title, const std::string& folder) {
-  std::vector<std::function<void()>> jobs{
-      [&map, folder] { write_vdb(folder + "/voids.vdb", map); },
-      [&map, folder] { write_octomap(folder + "/voids.bt", map.space); }};
+using Jobs = std::vector<std::function<void()>>;  // for several threads; what takes long comes first
+
+Jobs list_map_jobs(const VoidMap& map, const std::string& title, const std::string& folder) {
+  return {[&map, folder] { write_vdb(folder + "/voids.vdb", map); },
+          [&map, folder] { write_octomap(folder + "/voids.bt", map.space); },
+          [&map, folder] { write_text_file(folder + "/voids.json", make_void_json(map)); },
+          [&map, title, folder] { write_pictures(map, title, folder); }};
+}
+
+Jobs list_surface_jobs(const VoidMap& map, int surfaces, const std::string& folder) {
+  Jobs jobs;
   for (const RobotVoids& robot : map.robots) {
     const std::size_t shown = std::min(robot.voids.size(), std::size_t(surfaces));
     for (std::size_t i = 0; i < shown; ++i)
@@ -110,8 +125,6 @@ std::vector<std::function<void()>> list_jobs(const VoidMap& map, int surfaces,
                            make_void_surface(map.space, robot.voids[i]), map.space.pile_state);
       });
   }
-  jobs.push_back([&map, folder] { write_text_file(folder + "/voids.json", make_void_json(map)); });
-  jobs.push_back([&map, title, folder] { write_pictures(map, title, folder); });
   return jobs;
 }
 
@@ -139,7 +152,7 @@ ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids) {
   check_radii(voids.space.radii);
   Progress progress(choose_progress_style(request.options.quiet));
   progress.start("voids");
-  const VoidMap map = make_map(request, voids, progress);
+  VoidMap map = make_map(request, voids, progress);
   char text[160];
   std::snprintf(text, sizeof text,
                 "%d x %d x %d voxels, %.2f m3 solid, %.2f m3 void, %.2f m3 under a roof",
@@ -151,9 +164,13 @@ ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids) {
   const std::string folder = output_folder_of(voids.out, request.folder, "voids");
   prepare_output_folder(folder, voids.force, list_outputs(voids));
   const std::string title = std::filesystem::path(request.folder).filename().string();
-  const auto jobs = list_jobs(map, voids.surfaces, title, folder);
-  parallel_for(jobs.size(), ThreadPool(request.options.threads).threads(),
-               [&](std::size_t i) { jobs[i](); });
+  const auto run = [&](const Jobs& jobs) {
+    parallel_for(jobs.size(), ThreadPool(request.options.threads).threads(), [&](std::size_t i) { jobs[i](); });
+  };
+  run(list_map_jobs(map, title, folder));
+  // The surface of a large void takes as much memory as these, which it does not need.
+  map.widest = {}, map.space.clearance = {}, map.space.kind = {};
+  run(list_surface_jobs(map, voids.surfaces, folder));
   progress.finish(folder);
   print_summary(map);
   print_out("%s\n", folder.c_str());

@@ -124,7 +124,7 @@ bool NavigationWorld::try_void(const Void& v) {
     waypoints_ = {first};
     waypoints_.insert(waypoints_.end(), waypoints.begin(), waypoints.end());
     shortest_ = distance(in.outer, first) + path.length + distance(on_ground(inside), waypoints.back());
-    inside_ = v.cells;
+    inside_.assign(v.cells.begin(), v.cells.end());
     return true;
   };
   for (std::size_t i = 1; i < doors.size(); ++i) {

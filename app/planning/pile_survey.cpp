@@ -54,9 +54,11 @@ const VoidMap& PileSurvey::find_voids(const VoidSpaceOptions& options,
     found.map = rubble::find_voids(std::move(found.map.space), radii, part_of(progress, kShareOfSpace, 1));
     found.connected = true;
   }
-  for (const double radius : radii)
-    if (!has_robot(found.map, radius))
-      found.map.robots.push_back(find_robot_voids(found.map.space, found.map.widest, radius, threads_));
+  for (const double radius : radii) {
+    if (has_robot(found.map, radius)) continue;
+    found.map.robots.push_back(find_robot_voids(found.map.space, radius, threads_));
+    add_bottlenecks(found.map.space, found.map.widest, found.map.robots.back());
+  }
   return found.map;
 }
 

@@ -28,9 +28,11 @@ std::vector<VictimPlace> find_victim_places(const VoidMap& map, VictimDifficulty
   for (const Void& v : map.robots.front().voids) {
     if (v.entrances.empty()) continue;
     const std::vector<double> ways = calc_ways_in(map.space, v);
-    for (std::size_t i = 0; i < ways.size(); ++i)
-      if (std::isfinite(ways[i]) && ways[i] >= kLeastWayIn)
-        all.push_back({map.space.grid.centre(v.places[i]), ways[i]});
+    auto way = ways.begin();
+    for (const std::uint32_t place : v.places) {
+      if (std::isfinite(*way) && *way >= kLeastWayIn) all.push_back({map.space.grid.centre(place), *way});
+      ++way;
+    }
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const VictimPlace& a, const VictimPlace& b) { return a.way_in < b.way_in; });

@@ -1,10 +1,14 @@
 #include "io/voids/void_files.h"
 
 #include <openvdb/io/Archive.h>
+#include <openvdb/io/Compression.h>
+#include <openvdb/io/DelayedLoadMetadata.h>
 #include <openvdb/io/GridDescriptor.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <ostream>
 #include <streambuf>
@@ -28,50 +32,161 @@ openvdb::math::Transform::Ptr make_transform(const VoxelGrid& grid) {
   return transform;
 }
 
+// A grid that writes itself.
+class Writable {
+ public:
+  virtual ~Writable() = default;
+  virtual openvdb::GridBase& grid() = 0;
+  // compression: of OpenVDB.
+  virtual void add_sizes(std::uint32_t compression) = 0;
+  virtual void write_values(std::ostream& out) const = 0;
+};
+
+// Its leaves have masks alone; each gets its values when it is written. Those of a large map would fill the memory.
 template <typename Grid>
-typename Grid::Ptr make_grid(const VoidSpace& space, const std::string& name,
-                             typename Grid::ValueType background) {
-  typename Grid::Ptr grid = Grid::create(background);
-  grid->setName(name);
-  grid->setTransform(make_transform(space.grid));
-  grid->setSaveFloatAsHalf(false);
-  grid->insertMeta("pile_state_hash", openvdb::StringMetadata(hex64(space.pile_state)));
-  return grid;
+class LateGrid : public Writable {
+ public:
+  using Value = typename Grid::ValueType;
+  using Leaf = typename Grid::TreeType::LeafNodeType;
+  using IsStored = std::function<bool(std::size_t cell)>;
+  using ValueAt = std::function<Value(std::size_t cell)>;
+
+  LateGrid(const VoxelGrid& cells, const IsStored& is_stored, const ValueAt& value_at)
+      : cells_(cells), value_at_(value_at), grid_(Grid::create(Value(0))) {
+    const Cell& n = cells.size;
+    constexpr int kEdge = int(Leaf::DIM);
+    for (int z = 0; z < n[2]; z += kEdge)
+      for (int y = 0; y < n[1]; y += kEdge)
+        for (int x = 0; x < n[0]; x += kEdge) add_leaf({x, y, z}, is_stored);
+  }
+
+  openvdb::GridBase& grid() override { return *grid_; }
+
+  // As those of leaves with values. Readers that load leaves when they are asked for need to know where these are.
+  void add_sizes(std::uint32_t compression) override {
+    const openvdb::Index64 leaves = grid_->tree().leafCount();
+    if (leaves == 0) return;
+    grid_->insertMeta(grid_->META_FILE_MEM_BYTES,
+                      openvdb::Int64Metadata(openvdb::Int64(grid_->memUsage() + leaves * Leaf::SIZE * sizeof(Value))));
+    openvdb::io::DelayedLoadMetadata sizes;
+    sizes.resizeMask(leaves), sizes.resizeCompressedSize(leaves);
+    std::size_t number = 0;
+    for (auto leaf = grid_->tree().cbeginLeaf(); leaf; ++leaf, ++number) {
+      const Leaf whole = fill(*leaf);
+      const auto mask = openvdb::io::NO_MASK_OR_INACTIVE_VALS;
+      const std::size_t size = openvdb::io::writeCompressedValuesSize(whole.buffer().data(), Leaf::SIZE,
+                                                                     whole.valueMask(), mask, false, compression);
+      sizes.setMask(number, mask), sizes.setCompressedSize(number, std::int64_t(size + 8));
+    }
+    grid_->insertMeta(grid_->META_FILE_DELAYED_LOAD, sizes);
+  }
+  void write_values(std::ostream& out) const override {
+    for (auto leaf = grid_->tree().cbeginLeaf(); leaf; ++leaf) fill(*leaf).writeBuffers(out, false);
+  }
+
+ private:
+  std::size_t cell_at(const Leaf& leaf, openvdb::Index voxel) const {
+    const openvdb::Coord c = leaf.offsetToGlobalCoord(voxel);
+    return cells_.index({c.x(), c.y(), c.z()});
+  }
+  void add_leaf(const Cell& first, const IsStored& is_stored) {
+    auto leaf = std::make_unique<Leaf>(openvdb::PartialCreate(), to_coord(first), Value(0));
+    for (openvdb::Index voxel = 0; voxel < Leaf::SIZE; ++voxel) {
+      const openvdb::Coord c = leaf->offsetToGlobalCoord(voxel);
+      const Cell cell{c.x(), c.y(), c.z()};
+      if (cells_.contains(cell) && is_stored(cells_.index(cell))) leaf->setActiveState(voxel, true);
+    }
+    if (!leaf->getValueMask().isOff()) grid_->tree().addLeaf(leaf.release());
+  }
+  Leaf fill(const Leaf& leaf) const {
+    Leaf whole(leaf.origin(), Value(0));
+    for (auto voxel = leaf.cbeginValueOn(); voxel; ++voxel)
+      whole.setValueOn(voxel.pos(), value_at_(cell_at(leaf, voxel.pos())));
+    return whole;
+  }
+
+  const VoxelGrid cells_;
+  const ValueAt value_at_;
+  const typename Grid::Ptr grid_;
+};
+
+// One whose tree is small.
+class WholeGrid : public Writable {
+ public:
+  explicit WholeGrid(openvdb::GridBase::Ptr grid) : grid_(std::move(grid)) {}
+  openvdb::GridBase& grid() override { return *grid_; }
+  void add_sizes(std::uint32_t) override {}
+  void write_values(std::ostream& out) const override { grid_->writeBuffers(out); }
+
+ private:
+  const openvdb::GridBase::Ptr grid_;
+};
+
+using WritablePtr = std::unique_ptr<Writable>;
+
+void describe(const VoidSpace& space, const std::string& name, openvdb::GridBase& grid) {
+  grid.setName(name);
+  grid.setTransform(make_transform(space.grid));
+  grid.setSaveFloatAsHalf(false);
+  grid.insertMeta("pile_state_hash", openvdb::StringMetadata(hex64(space.pile_state)));
 }
 
 // value_at: of a cell of the void, by its index.
-template <typename ValueAt>
-openvdb::FloatGrid::Ptr make_float_grid(const VoidSpace& space, const ValueAt& value_at,
-                                        const std::string& name) {
-  auto grid = make_grid<openvdb::FloatGrid>(space, name, 0.0f);
-  auto accessor = grid->getAccessor();
-  for (std::size_t i = 0; i < space.kind.size(); ++i) {
-    if (space.kind[i] == CellKind::free_void)
-      accessor.setValue(to_coord(space.grid.cell(i)), value_at(i));
-  }
-  grid->setGridClass(openvdb::GRID_FOG_VOLUME);
-  return grid;
+WritablePtr make_float_grid(const VoidSpace& space, const std::function<float(std::size_t)>& value_at,
+                            const std::string& name) {
+  const auto is_void = [&space](std::size_t i) { return space.kind[i] == CellKind::free_void; };
+  auto late = std::make_unique<LateGrid<openvdb::FloatGrid>>(space.grid, is_void, value_at);
+  describe(space, name, late->grid());
+  late->grid().setGridClass(openvdb::GRID_FOG_VOLUME);
+  return late;
 }
 
-openvdb::BoolGrid::Ptr make_solid_grid(const VoidSpace& space) {
-  auto grid = make_grid<openvdb::BoolGrid>(space, "solid", false);
+WritablePtr make_solid_grid(const VoidSpace& space) {
+  const auto grid = openvdb::BoolGrid::create(false);
+  describe(space, "solid", *grid);
   auto accessor = grid->getAccessor();
   for (std::size_t i = 0; i < space.kind.size(); ++i) {
     if (space.kind[i] == CellKind::solid) accessor.setValue(to_coord(space.grid.cell(i)), true);
   }
   grid->tree().prune();
-  return grid;
+  return std::make_unique<WholeGrid>(grid);
 }
 
-openvdb::Int32Grid::Ptr make_label_grid(const VoidSpace& space, const RobotVoids& robot) {
-  const std::string name = "voids_r" + std::to_string(int(std::lround(robot.radius * 1000)));
-  auto grid = make_grid<openvdb::Int32Grid>(space, name, 0);
-  auto accessor = grid->getAccessor();
-  for (std::size_t v = 0; v < robot.voids.size(); ++v) {
-    for (const std::uint32_t i : robot.voids[v].cells)
-      accessor.setValue(to_coord(space.grid.cell(i)), int(v + 1));
+// The ranks of voids, by their cells. Questions about cells beside each other are quick.
+class Ranks {
+ public:
+  explicit Ranks(const RobotVoids& robot) {
+    for (std::size_t v = 0; v < robot.voids.size(); ++v)
+      for (const CellRun& run : robot.voids[v].cells.runs()) runs_.push_back({run, int(v + 1)});
+    std::sort(runs_.begin(), runs_.end(), [](const Run& a, const Run& b) { return a.cells.first < b.cells.first; });
   }
-  return grid;
+
+  int operator()(std::size_t cell) {  // 0: in none
+    if (runs_.empty()) return 0;
+    if (cell < runs_[at_].cells.first || (at_ + 1 < runs_.size() && cell >= runs_[at_ + 1].cells.first)) {
+      const auto after = std::upper_bound(runs_.begin(), runs_.end(), cell,
+                                          [](std::size_t i, const Run& run) { return i < run.cells.first; });
+      if (after == runs_.begin()) return 0;
+      at_ = std::size_t(after - runs_.begin()) - 1;
+    }
+    return cell - runs_[at_].cells.first < runs_[at_].cells.count ? runs_[at_].rank : 0;
+  }
+
+ private:
+  struct Run {
+    CellRun cells;
+    int rank;
+  };
+  std::vector<Run> runs_;
+  std::size_t at_ = 0;  // of the last answer
+};
+
+WritablePtr make_label_grid(const VoidSpace& space, const RobotVoids& robot) {
+  const auto ranks = std::make_shared<Ranks>(robot);
+  const auto rank_at = [ranks](std::size_t i) { return (*ranks)(i); };
+  auto late = std::make_unique<LateGrid<openvdb::Int32Grid>>(space.grid, rank_at, rank_at);
+  describe(space, "voids_r" + std::to_string(int(std::lround(robot.radius * 1000))), late->grid());
+  return late;
 }
 
 // What OpenVDB writes goes into a file as it comes. A VDB header is: magic (8 bytes), file version, library version (4 + 4 + 4),
@@ -112,10 +227,10 @@ class VdbFile : public std::streambuf {
   Sha256 hash_;
 };
 
-// openvdb::io::Stream, but for grids that are made one after the other: those of a large map would fill the memory together.
+// openvdb::io::Stream, but for grids that are made one after the other, and that write their values themselves.
 class GridByGrid : private openvdb::io::Archive {
  public:
-  using Makers = std::vector<std::function<openvdb::GridBase::Ptr()>>;
+  using Makers = std::vector<std::function<WritablePtr()>>;
 
   // Their names are all different.
   void write(std::ostream& out, const Makers& makers) const {
@@ -124,11 +239,24 @@ class GridByGrid : private openvdb::io::Archive {
     openvdb::MetaMap().writeMeta(out);
     const std::int32_t count = std::int32_t(makers.size());
     out.write(reinterpret_cast<const char*>(&count), sizeof count);
-    for (const auto& make : makers) {
-      const openvdb::GridBase::Ptr grid = make();
-      openvdb::io::GridDescriptor descriptor(grid->getName(), grid->type(), grid->saveFloatAsHalf());
-      writeGrid(descriptor, grid, out, false);
-    }
+    for (const auto& make : makers) write(out, *make());
+  }
+
+ private:
+  void write(std::ostream& out, Writable& writable) const {
+    openvdb::GridBase& grid = writable.grid();
+    const openvdb::io::GridDescriptor descriptor(grid.getName(), grid.type(), grid.saveFloatAsHalf());
+    descriptor.writeHeader(out);
+    descriptor.writeStreamPos(out);
+    setGridCompression(out, grid);
+    const std::uint32_t compression = openvdb::io::getDataCompression(out);
+    grid.addStatsMetadata();
+    grid.insertMeta(grid.META_FILE_COMPRESSION, openvdb::StringMetadata(openvdb::io::compressionToString(compression)));
+    writable.add_sizes(compression);
+    grid.writeMeta(out);
+    grid.writeTransform(out);
+    grid.writeTopology(out);
+    writable.write_values(out);
   }
 };
 
@@ -138,7 +266,7 @@ void write_vdb(const std::string& path, const VoidMap& map) {
   static std::once_flag once;
   std::call_once(once, [] { openvdb::initialize(); });
   const VoidSpace& space = map.space;
-  const auto widest_at = [&map](std::size_t i) { return map.widest.radius[map.widest.cells[i]]; };
+  const auto widest_at = [&map](std::size_t i) { return map.widest.radius(map.space, i); };
   GridByGrid::Makers makers{
       [&] { return make_float_grid(space, [&](std::size_t i) { return space.clearance[i]; }, "clearance"); },
       [&] { return make_float_grid(space, widest_at, "widest_path"); }, [&] { return make_solid_grid(space); }};

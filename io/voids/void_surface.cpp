@@ -42,6 +42,7 @@ std::vector<std::uint32_t> put_in_order(std::vector<Vec3f>& positions) {
     return std::tie(p.z, p.y, p.x) < std::tie(q.z, q.y, q.x);
   });
   std::vector<Vec3f> ordered;
+  ordered.reserve(positions.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     place[order[i]] = std::uint32_t(i);
     ordered.push_back(positions[order[i]]);
@@ -53,6 +54,7 @@ std::vector<std::uint32_t> put_in_order(std::vector<Vec3f>& positions) {
 // Values are high inside, so OpenVDB's faces look inwards: they are turned round.
 void add_faces(const std::vector<openvdb::Vec4I>& quads, const std::vector<std::uint32_t>& place,
                TriangleMesh& mesh) {
+  mesh.triangles.reserve(2 * quads.size());
   for (const openvdb::Vec4I& quad : quads) {
     std::array<std::uint32_t, 4> q{place[quad[3]], place[quad[2]], place[quad[1]], place[quad[0]]};
     std::rotate(q.begin(), std::min_element(q.begin(), q.end()), q.end());
@@ -69,15 +71,16 @@ constexpr const char* kBegin = "ply\nformat binary_little_endian 1.0\ncomment pi
 TriangleMesh make_void_surface(const VoidSpace& space, const Void& v) {
   static std::once_flag once;
   std::call_once(once, [] { openvdb::initialize(); });
-  const auto grid = make_grid(space.grid, v);
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec4I> quads;
-  openvdb::tools::volumeToMesh(*grid, points, quads, 0.5);
+  openvdb::tools::volumeToMesh(*make_grid(space.grid, v), points, quads, 0.5);
   TriangleMesh mesh;
+  mesh.positions.reserve(points.size());
   for (const openvdb::Vec3s& p : points) {
     mesh.positions.push_back(
         Vec3f(space.grid.corner + Vec3{p.x() + 0.5, p.y() + 0.5, p.z() + 0.5} * space.grid.voxel));
   }
+  points = {};  // those of a large void fill the memory
   add_faces(quads, put_in_order(mesh.positions), mesh);
   return mesh;
 }

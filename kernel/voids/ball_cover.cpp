@@ -110,9 +110,9 @@ class Cover {
       for (std::size_t y = 0; y < rows; ++y)
         if (along_x[x * rows + y] < kNowhere) envelope.add(place(from, 1, int(y)), along_x[x * rows + y]);
       if (envelope.empty()) continue;
-      CellKind* const kind = &map_.kind[to.index({int(x), 0, z})];
+      const std::size_t first = to.index({int(x), 0, z});
       envelope.for_each(place(to, 1, 0), to.voxel, to.size[1], [&](int y, double value) {
-        if (value < 0) kind[std::size_t(y) * row] = CellKind::outside;
+        if (value < 0) map_.kind.set(first + std::size_t(y) * row, CellKind::outside);
       });
     }
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace rubble {
 
 class CellClearance {
  public:
+  CellClearance() = default;
+  explicit CellClearance(std::size_t cells) : values_(cells) {}  // of each cell: 0
+
   // Of a cell whose number was not kept: 0.
   float operator[](std::size_t cell) const {
     const std::size_t at = place(cell);
@@ -21,33 +25,43 @@ class CellClearance {
     const std::size_t at = place(cell);
     if (at != kNoSlot) values_[at] = value;
   }
+  bool keeps(std::size_t cell) const { return place(cell) != kNoSlot; }
+  bool is_sparse() const { return kept_ != nullptr; }
+  // The cells whose numbers are kept; null: all.
+  const std::shared_ptr<const CellSlots>& kept() const { return kept_; }
+  std::vector<float>& of_all() { return values_; }  // of all cells in turn; not of a sparse one
 
-  // The numbers of all cells in turn, 0 where none was kept. cells: of the grid.
-  std::vector<float>& of_all(std::size_t cells) {
-    if (is_sparse_) {
-      std::vector<float> all(cells);
-      for (std::size_t i = 0; i < cells; ++i) all[i] = (*this)[i];
-      values_ = std::move(all), kept_ = {}, is_sparse_ = false;
-    }
-    values_.resize(cells);
-    return values_;
-  }
-  // Forgets all others of what of_all() gave. wanted: of each cell.
+  // Forgets all others. Without any so far, each is 0. wanted: of each cell.
   void keep(const std::vector<bool>& wanted) {
-    CellSlots kept(wanted.size(), [&](std::size_t i) { return wanted[i]; });
-    std::vector<float> values;
-    values.reserve(kept.count());
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-      if (wanted[i]) values.push_back(values_[i]);
-    values_ = std::move(values), kept_ = std::move(kept), is_sparse_ = true;
+    auto kept = std::make_shared<const CellSlots>(wanted.size(), [&](std::size_t i) { return wanted[i]; });
+    std::vector<float> values(kept->count());
+    for (std::size_t i = 0; i < wanted.size() && !values_.empty(); ++i)
+      if (wanted[i]) values[(*kept)[i]] = (*this)[i];
+    values_ = std::move(values), kept_ = std::move(kept);
+  }
+  // Forgets all but some cells, and numbers these anew. place_before: its next() is that of each in turn, ascending.
+  template <typename Walk>
+  void renumber(std::size_t cells, const Walk& places_before) {
+    Walk before = places_before;
+    std::size_t count = 0;
+    std::shared_ptr<const CellSlots> kept;
+    const auto take = [&](std::size_t) {
+      const std::size_t at = place(before.next());
+      if (at != kNoSlot) values_[count++] = values_[at];
+      return at != kNoSlot;
+    };
+    if (kept_)
+      kept = std::make_shared<const CellSlots>(cells, take);
+    else
+      for (std::size_t i = 0; i < cells; ++i) take(i);
+    values_.resize(count), kept_ = std::move(kept);
   }
 
  private:
-  std::size_t place(std::size_t cell) const { return is_sparse_ ? kept_[cell] : cell; }
+  std::size_t place(std::size_t cell) const { return kept_ ? (*kept_)[cell] : cell; }
 
   std::vector<float> values_;
-  CellSlots kept_;
-  bool is_sparse_ = false;
+  std::shared_ptr<const CellSlots> kept_;
 };
 
 }  // namespace rubble

@@ -18,16 +18,16 @@ class CellSlots {
   // cells: of the grid. is_wanted(index): whether a cell gets a number.
   template <typename IsWanted>
   CellSlots(std::size_t cells, const IsWanted& is_wanted)
-      : words_(cells / kBits + 1), before_(words_.size()) {
+      : words_(cells / kBits + 1) {
     for (std::size_t i = 0; i < cells; ++i)
-      if (is_wanted(i)) words_[i / kBits] |= std::uint64_t(1) << (i % kBits);
+      if (is_wanted(i)) mark(i);
     count_before();
   }
 
   // wanted: indices of cells, each once.
   CellSlots(std::size_t cells, const std::vector<std::uint32_t>& wanted)
-      : words_(cells / kBits + 1), before_(words_.size()) {
-    for (const std::uint32_t i : wanted) words_[i / kBits] |= std::uint64_t(1) << (i % kBits);
+      : words_(cells / kBits + 1) {
+    for (const std::uint32_t i : wanted) mark(i);
     count_before();
   }
 
@@ -36,23 +36,33 @@ class CellSlots {
   // The number of a cell, in the order of their indices; kNoSlot: it has none. index: of a cell of
   // the grid.
   std::uint32_t operator[](std::size_t index) const {
-    const std::uint64_t word = words_[index / kBits], bit = std::uint64_t(1) << (index % kBits);
-    if (!(word & bit)) return kNoSlot;
-    return before_[index / kBits] + std::uint32_t(std::bitset<kBits>(word & (bit - 1)).count());
+    const Word& word = words_[index / kBits];
+    const std::uint64_t bit = std::uint64_t(1) << (index % kBits);
+    if (!(word.bits() & bit)) return kNoSlot;
+    return word.before + count_bits(word.bits() & (bit - 1));
   }
 
  private:
   static constexpr std::size_t kBits = 64;
 
+  // All that a question needs, side by side and without padding.
+  struct Word {
+    std::uint32_t half[2] = {0, 0};
+    std::uint32_t before = 0;  // numbers of the words before
+
+    std::uint64_t bits() const { return half[0] | std::uint64_t(half[1]) << 32; }
+  };
+
+  static std::uint32_t count_bits(std::uint64_t bits) { return std::uint32_t(std::bitset<kBits>(bits).count()); }
+  void mark(std::size_t i) { words_[i / kBits].half[i % kBits / 32] |= std::uint32_t(1) << (i % 32); }
   void count_before() {
-    for (std::size_t w = 0; w < words_.size(); ++w) {
-      before_[w] = std::uint32_t(count_);
-      count_ += std::bitset<kBits>(words_[w]).count();
+    for (Word& word : words_) {
+      word.before = std::uint32_t(count_);
+      count_ += count_bits(word.bits());
     }
   }
 
-  std::vector<std::uint64_t> words_;
-  std::vector<std::uint32_t> before_;
+  std::vector<Word> words_;
   std::size_t count_ = 0;
 };
 

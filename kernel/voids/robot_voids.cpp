@@ -3,29 +3,30 @@
 #include <utility>
 
 #include "kernel/geometry/distance_transform.h"
+#include "kernel/voids/cell_box.h"
+#include "kernel/voids/place_runs.h"
 #include "kernel/voids/void_map.h"
 #include "kernel/voids/ways_from.h"
 
 namespace rubble {
 namespace {
 
-constexpr std::uint32_t kUnlabelled = kNoSlot;
-constexpr int kLayers = 32;  // of cells that are given to voids at a time, at least
+constexpr int kTile = 128;  // edge of a part that is given to voids at a time, at least; unit: cells
 
 class Finder {
  public:
-  Finder(const VoidSpace& space, const WidestPaths& widest, double radius, int threads)
-      : space_(space), widest_(widest), radius_(float(radius)), pool_(threads) {
+  Finder(const VoidSpace& space, double radius, int threads)
+      : space_(space), radius_(float(radius)), pool_(threads), places_(space, radius_) {
     result_.radius = radius;
-    slots_ = CellSlots(space.kind.size(), [&](std::size_t i) { return is_place(i); });
-    label_.assign(slots_.count(), kUnlabelled);
   }
 
   RobotVoids run() {
-    label_places();
+    for (CellRuns& places : places_.list_voids()) {
+      result_.voids.emplace_back();
+      result_.voids.back().places = std::move(places);
+    }
     assign_cells();
     find_depths();
-    rank_.resize(label_.size());
     for (std::size_t i = 0; i < result_.voids.size(); ++i) describe(result_.voids[i], i);
     drop_dents();
     for (Void& v : result_.voids) {
@@ -39,98 +40,81 @@ class Finder {
   }
 
  private:
-  bool is_place(std::size_t i) const {
-    return space_.kind[i] == CellKind::free_void && space_.clearance[i] >= radius_;
-  }
-
-  // Of a place: the number of its void. Of any other cell kUnlabelled.
-  std::uint32_t label_at(std::size_t i) const {
-    const std::uint32_t slot = slots_[i];
-    return slot == kNoSlot ? kUnlabelled : label_[slot];
-  }
-
-  // Connected places by their faces.
-  void label_places() {
-    std::vector<std::uint32_t> front;
-    const auto is_new = [&](std::size_t i) { return slots_[i] != kNoSlot && label_[slots_[i]] == kUnlabelled; };
-    for (std::size_t i = 0; i < space_.kind.size(); ++i) {
-      if (!is_new(i)) continue;
-      const std::uint32_t label = std::uint32_t(result_.voids.size());
-      Void found;
-      const auto visit = [&](std::size_t k) {
-        if (!is_new(k)) return;
-        label_[slots_[k]] = label;
-        front.push_back(std::uint32_t(k));
-      };
-      visit(i);
-      while (!front.empty()) {
-        const std::uint32_t at = front.back();
-        front.pop_back();
-        found.places.push_back(at);
-        for_each_neighbour(space_.grid, at, visit);
-      }
-      std::sort(found.places.begin(), found.places.end());
-      result_.voids.push_back(std::move(found));
-    }
-  }
-
   // Void cells within the robot's radius of a place belong to that place's void. Half a voxel is
   // added, since the centre of a cell at a wall is that far from it.
   void assign_cells() {
-    const VoxelGrid& grid = space_.grid;
-    std::vector<Cell> seeds;  // the places at the edges of the voids, layer by layer
-    for (std::size_t i = 0; i < space_.kind.size(); ++i) {
-      const std::uint32_t label = label_at(i);
-      if (label == kUnlabelled) continue;
-      bool inner = true;
-      for_each_neighbour(grid, i, [&](std::size_t k) { inner = inner && label_at(k) == label; });
-      if (!inner) seeds.push_back(grid.cell(i));
-    }
-    // Some layers at a time with those beside them that a robot's radius reaches: for all at once
-    // the nearest places would take four bytes a cell.
-    const double reach = radius_ / grid.voxel + 0.5;
-    const int beside = int(std::ceil(reach)), step = std::max(kLayers, 2 * beside);
-    for (int first = 0; first < grid.size[2]; first += step)
-      assign_layers(first, std::min(first + step, grid.size[2]), beside, reach, seeds);
+    const Cell& n = space_.grid.size;
+    const double reach = radius_ / space_.grid.voxel + 0.5;
+    const int beside = int(std::ceil(reach)), step = std::max(kTile, 4 * beside);
+    cells_.resize(result_.voids.size());
+    for (int y = 0; y < n[1]; y += step)
+      for (int x = 0; x < n[0]; x += step)
+        assign_tile({{x, y, 0}, {std::min(x + step, n[0]) - 1, std::min(y + step, n[1]) - 1, n[2] - 1}}, beside,
+                    reach);
+    for (std::size_t v = 0; v < cells_.size(); ++v) result_.voids[v].cells = CellRuns(std::move(cells_[v]));
   }
 
-  // first, last: layers [first, last). beside: layers to either side that may have the nearest
-  // place. reach: of a place; both in cells. seeds: ascending.
-  void assign_layers(int first, int last, int beside, double reach,
-                     const std::vector<Cell>& seeds) {
+  // beside: how far around the tile the nearest place may be. reach: of a place; both in cells.
+  void assign_tile(const CellBox& tile, int beside, double reach) {
     const VoxelGrid& grid = space_.grid;
-    const int low = std::max(0, first - beside), high = std::min(grid.size[2], last + beside);
-    const auto below = [](const Cell& seed, int z) { return seed[2] < z; };
-    const auto begin = std::lower_bound(seeds.begin(), seeds.end(), low, below);
-    const auto end = std::lower_bound(begin, seeds.end(), high, below);
-    VoxelGrid part = grid;
-    part.size[2] = high - low;
-    std::vector<Cell> own(begin, end);
-    for (Cell& seed : own) seed[2] -= low;
-    const auto nearest = find_nearest_seeds(part, own, pool_);
-    const std::size_t lowest = grid.index({0, 0, low});
-    for (std::size_t i = grid.index({0, 0, first}); i < grid.index({0, 0, last}); ++i) {
-      if (space_.kind[i] != CellKind::free_void) continue;
-      std::uint32_t v = label_at(i);
-      const std::uint32_t seed = nearest[i - lowest];
-      if (v == kUnlabelled && seed != kNoSeed) {
-        const Cell c = part.cell(i - lowest), &s = own[seed];
-        double square = 0;
-        for (std::size_t k = 0; k < 3; ++k) square += double(s[k] - c[k]) * (s[k] - c[k]);
-        if (square <= reach * reach) v = label_at(lowest + part.index(s));
-      }
-      if (v != kUnlabelled) result_.voids[v].cells.push_back(std::uint32_t(i));
+    CellBox box = tile;
+    for (std::size_t k = 0; k < 2; ++k) {
+      box.first[k] = std::max(0, tile.first[k] - beside);
+      box.last[k] = std::min(grid.size[k] - 1, tile.last[k] + beside);
     }
+    const std::vector<Cell> seeds = list_edges(box);
+    const VoxelGrid part = box.grid();
+    const auto nearest = find_nearest_seeds(part, seeds, pool_);
+    for (int z = tile.first[2]; z <= tile.last[2]; ++z)
+      for (int y = tile.first[1]; y <= tile.last[1]; ++y)
+        for (int x = tile.first[0]; x <= tile.last[0]; ++x) {
+          const std::size_t i = grid.index({x, y, z});
+          if (space_.kind[i] != CellKind::free_void) continue;
+          const PlaceRuns::Run* place = places_.find(i);
+          const Cell c{x - box.first[0], y - box.first[1], z};
+          const std::uint32_t seed = nearest[part.index(c)];
+          if (!place && seed != kNoSeed) {
+            const Cell& s = seeds[seed];
+            double square = 0;
+            for (std::size_t k = 0; k < 3; ++k) square += double(s[k] - c[k]) * (s[k] - c[k]);
+            if (square <= reach * reach)
+              place = places_.find(grid.index({s[0] + box.first[0], s[1] + box.first[1], s[2]}));
+          }
+          if (place) add_cell(cells_[place->label], std::uint32_t(i));
+        }
+  }
+
+  static void add_cell(std::vector<CellRun>& runs, std::uint32_t cell) {
+    if (!runs.empty() && runs.back().first + runs.back().count == cell)
+      ++runs.back().count;
+    else
+      runs.push_back({cell, 1});
+  }
+
+  // The places at the edges of the voids, from the first cell of the box; ascending.
+  std::vector<Cell> list_edges(const CellBox& box) const {
+    const VoxelGrid& grid = space_.grid;
+    std::vector<Cell> edges;
+    for (int z = box.first[2]; z <= box.last[2]; ++z)
+      for (int y = box.first[1]; y <= box.last[1]; ++y)
+        for (int x = box.first[0]; x <= box.last[0]; ++x) {
+          const std::size_t i = grid.index({x, y, z});
+          if (space_.kind[i] != CellKind::free_void || !places_.find(i)) continue;
+          bool inner = true;
+          for_each_neighbour(grid, i, [&](std::size_t k) { inner = inner && places_.find(k); });
+          if (!inner) edges.push_back({x - box.first[0], y - box.first[1], z});
+        }
+    return edges;
   }
 
   // For each column the height of the highest cell that is not outside.
   void find_depths() {
     const Cell& n = space_.grid.size;
-    const std::size_t layer = std::size_t(n[0]) * std::size_t(n[1]);
-    envelope_.assign(layer, 0);
-    for (std::size_t i = 0; i < space_.kind.size(); ++i) {
-      if (space_.kind[i] != CellKind::outside) envelope_[i % layer] = int(i / layer) + 1;
-    }
+    envelope_.assign(std::size_t(n[0]) * std::size_t(n[1]), 0);
+    std::size_t i = 0;
+    for (int z = 0; z < n[2]; ++z)
+      for (int& height : envelope_)
+        if (space_.kind[i++] != CellKind::outside) height = z + 1;
   }
 
   double find_depth(std::size_t i) const {
@@ -148,10 +132,6 @@ class Finder {
     v.widest_radius = space_.clearance[widest];
     v.depth = find_depth(lowest);
     v.deepest = space_.grid.centre(lowest);
-    const std::size_t slot = widest_.cells[widest];
-    v.bottleneck_radius = widest_.radius[slot];
-    if (widest_.narrowest[slot] != kNoCell)
-      v.bottleneck = space_.grid.centre(widest_.narrowest[slot]);
     const std::vector<std::uint32_t> openings = find_openings(v);
     group_entrances(v, openings);
     if (!openings.empty()) find_deepest(v, openings, std::uint32_t(number));
@@ -232,12 +212,10 @@ class Finder {
 
   // Dijkstra from all openings at once over the void's places.
   void find_deepest(Void& v, const std::vector<std::uint32_t>& openings, std::uint32_t number) {
-    for (std::size_t k = 0; k < v.places.size(); ++k)
-      rank_[slots_[v.places[k]]] = std::uint32_t(k);
     const std::vector<double> length =
         calc_ways_from(space_.grid, openings, v.places.size(), [&](std::size_t k) {
-          const std::uint32_t slot = slots_[k];
-          return slot != kNoSlot && label_[slot] == number ? rank_[slot] : kNoSlot;
+          const PlaceRuns::Run* place = places_.find(k);
+          return place && place->label == number ? place->rank + std::uint32_t(k - place->first) : kNoSlot;
         });
     const auto farthest = std::max_element(length.begin(), length.end());
     v.path_length = *farthest * space_.grid.voxel;
@@ -245,12 +223,10 @@ class Finder {
   }
 
   const VoidSpace& space_;
-  const WidestPaths& widest_;
   const float radius_;
   ThreadPool pool_;
-  CellSlots slots_;                   // of all places
-  std::vector<std::uint32_t> label_;  // of each place: the number of its void
-  std::vector<std::uint32_t> rank_;   // of each place: where in its void's list it is
+  const PlaceRuns places_;
+  std::vector<std::vector<CellRun>> cells_;  // of each void
   std::vector<int> envelope_;
   RobotVoids result_;
 };
@@ -261,16 +237,24 @@ std::vector<double> calc_ways_in(const VoidSpace& space, const Void& v) {
   std::vector<std::uint32_t> openings;
   for (const Entrance& e : v.entrances)
     openings.insert(openings.end(), e.openings.begin(), e.openings.end());
-  const CellSlots slot(space.grid.count(), v.places);
+  const CellSlots slot(space.grid.count(), std::vector<std::uint32_t>(v.places.begin(), v.places.end()));
   std::vector<double> ways = calc_ways_from(space.grid, openings, v.places.size(),
                                             [&slot](std::size_t k) { return slot[k]; });
   for (double& way : ways) way *= space.grid.voxel;
   return ways;
 }
 
-RobotVoids find_robot_voids(const VoidSpace& space, const WidestPaths& widest, double radius,
-                            int threads) {
-  return Finder(space, widest, radius, threads).run();
+RobotVoids find_robot_voids(const VoidSpace& space, double radius, int threads) {
+  return Finder(space, radius, threads).run();
+}
+
+void add_bottlenecks(const VoidSpace& space, const WidestPaths& widest, RobotVoids& robot) {
+  for (Void& v : robot.voids) {
+    const std::size_t cell = space.grid.index(space.grid.find_cell(v.widest));
+    v.bottleneck_radius = widest.radius(space, cell);
+    const std::uint32_t narrowest = widest.narrowest[(*widest.cells)[cell]];
+    if (narrowest != kNoCell) v.bottleneck = space.grid.centre(narrowest);
+  }
 }
 
 }  // namespace rubble

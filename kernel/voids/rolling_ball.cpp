@@ -52,7 +52,7 @@ class Roller {
     int first = c[0], last = c[0];
     while (first > 0 && is_open(row + std::size_t(first) - 1)) --first;
     while (last + 1 < grid.size[0] && is_open(row + std::size_t(last) + 1)) ++last;
-    for (int x = first; x <= last; ++x) space_.kind[row + std::size_t(x)] = CellKind::outside;
+    for (int x = first; x <= last; ++x) space_.kind.set(row + std::size_t(x), CellKind::outside);
     for (const auto& [dy, dz] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
       const Cell start{first, c[1] + dy, c[2] + dz};
       if (!grid.contains(start)) continue;
@@ -167,8 +167,8 @@ class RollingBall {
   }
 
   void mark(std::size_t column, int z) {
-    CellKind& kind = space_.kind[column + std::size_t(z) * layer_];
-    if (kind != CellKind::solid) kind = CellKind::outside;
+    const std::size_t cell = column + std::size_t(z) * layer_;
+    if (space_.kind[cell] != CellKind::solid) space_.kind.set(cell, CellKind::outside);
   }
 
   VoidSpace& space_;

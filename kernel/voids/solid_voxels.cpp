@@ -13,20 +13,22 @@ namespace {
 constexpr double kReach = 0.8661;
 constexpr int kSlab = 8;  // layers of cells that are searched at a time
 
-struct CellRange {
-  Cell first, last;  // inclusive; empty where first > last
-
-  bool empty() const { return first[0] > last[0] || first[1] > last[1] || first[2] > last[2]; }
-};
-
 // The cells whose centres may be within a margin of a box, cut to the grid.
-CellRange find_range(const VoxelGrid& grid, const Aabb& box, double margin) {
-  CellRange range;
+CellBox find_range(const VoxelGrid& grid, const Aabb& box, double margin) {
+  CellBox range{};
   for (int k = 0; k < 3; ++k) {
     const double low = (box.min[k] - margin - grid.corner[k]) / grid.voxel - 0.5;
     const double high = (box.max[k] + margin - grid.corner[k]) / grid.voxel - 0.5;
     range.first[std::size_t(k)] = std::max(0, int(std::ceil(low)));
     range.last[std::size_t(k)] = std::min(grid.size[std::size_t(k)] - 1, int(std::floor(high)));
+  }
+  return range;
+}
+
+CellBox cut(CellBox range, const CellBox& box) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    range.first[k] = std::max(range.first[k], box.first[k]);
+    range.last[k] = std::min(range.last[k], box.last[k]);
   }
   return range;
 }
@@ -45,7 +47,7 @@ double cross_xy(const Vec3& a, const Vec3& b, const Vec3& c) {
 // One piece's columns: how often its surface is crossed upwards, less downwards, below each cell.
 class Columns {
  public:
-  Columns(const VoxelGrid& grid, const CellRange& range)
+  Columns(const VoxelGrid& grid, const CellBox& range)
       : grid_(grid),
         range_(range),
         width_(range.last[0] - range.first[0] + 1),
@@ -54,7 +56,7 @@ class Columns {
         turns_(std::size_t(width_) * std::size_t(depth_) * std::size_t(height_), 0) {}
 
   void add(const QueryTriangle& t) {
-    const CellRange r = find_range(grid_, bounds(t), 0.001 * grid_.voxel);
+    const CellBox r = find_range(grid_, bounds(t), 0.001 * grid_.voxel);
     for (int y = std::max(r.first[1], range_.first[1]); y <= std::min(r.last[1], range_.last[1]);
          ++y) {
       for (int x = std::max(r.first[0], range_.first[0]); x <= std::min(r.last[0], range_.last[0]);
@@ -65,7 +67,7 @@ class Columns {
   }
 
   // Marks the cells around which the surface is wound.
-  void mark(std::vector<CellKind>& kind) const {
+  void mark(CellKinds& kind) const {
     for (int y = 0; y < depth_; ++y) {
       for (int x = 0; x < width_; ++x) mark_column(x, y, kind);
     }
@@ -92,7 +94,7 @@ class Columns {
     turns_[at(x - range_.first[0], y - range_.first[1], above)] += up ? -1 : 1;
   }
 
-  void mark_column(int x, int y, std::vector<CellKind>& kind) const {
+  void mark_column(int x, int y, CellKinds& kind) const {
     int total = 0;
     for (int z = 0; z < height_; ++z) total += turns_[at(x, y, z)];
     if (total != 0) return;  // an open mesh: the faces do not pair up here
@@ -101,34 +103,30 @@ class Columns {
       inside += turns_[at(x, y, z)];
       if (inside == 0) continue;
       const Cell cell{x + range_.first[0], y + range_.first[1], z + range_.first[2]};
-      // Several pieces may fill one cell at once; they all write the same.
-      CellKind solid = CellKind::solid;
-      __atomic_store(&kind[grid_.index(cell)], &solid, __ATOMIC_RELAXED);
+      kind.set(grid_.index(cell), CellKind::solid);  // several pieces may fill one cell at once
     }
   }
 
   const VoxelGrid& grid_;
-  const CellRange range_;
+  const CellBox range_;
   const int width_, depth_, height_;
   std::vector<std::int16_t> turns_;
 };
 
-// The nearest points found so far in some layers of cells.
+// The nearest points found so far in some layers of a box.
 class SurfaceSlab {
  public:
-  SurfaceSlab(const VoxelGrid& grid, int first, int last)
+  // first, last: layers of the grid, inclusive
+  SurfaceSlab(const VoxelGrid& grid, const CellBox& box, int first, int last)
       : grid_(grid),
-        first_(first),
-        last_(last),
-        layer_(std::size_t(grid.size[0]) * std::size_t(grid.size[1])),
-        distance_(layer_ * std::size_t(last - first), kFar),
-        nearest_(distance_.size()) {}
+        box_(box),
+        slab_{{box.first[0], box.first[1], first}, {box.last[0], box.last[1], last}},
+        own_(slab_.grid()),
+        distance_(own_.count(), kFar),
+        nearest_(own_.count()) {}
 
   void add(const QueryTriangle& t, std::uint32_t number) {
-    CellRange r = find_range(grid_, bounds(t), kReach * grid_.voxel);
-    r.first[2] = std::max(r.first[2], first_);
-    r.last[2] = std::min(r.last[2], last_ - 1);
-    if (r.empty()) return;
+    const CellBox r = cut(find_range(grid_, bounds(t), kReach * grid_.voxel), slab_);
     for (int z = r.first[2]; z <= r.last[2]; ++z)
       for (int y = r.first[1]; y <= r.last[1]; ++y)
         for (int x = r.first[0]; x <= r.last[0]; ++x) add(t, number, {x, y, z});
@@ -137,9 +135,9 @@ class SurfaceSlab {
   void append_to(VoxelSurface& surface) const {
     for (std::size_t i = 0; i < distance_.size(); ++i) {
       if (distance_[i] == kFar) continue;
-      const std::size_t x = i % layer_ % std::size_t(grid_.size[0]),
-                        y = i % layer_ / std::size_t(grid_.size[0]);
-      surface.cells.push_back({int(x), int(y), first_ + int(i / layer_)});
+      Cell cell = own_.cell(i);
+      cell[2] += slab_.first[2] - box_.first[2];
+      surface.cells.push_back(cell);
       surface.triangles.push_back(nearest_[i]);
     }
   }
@@ -153,31 +151,48 @@ class SurfaceSlab {
     const double limit = kReach * grid_.voxel;
     const double distance = dot(d, d);
     if (distance > limit * limit) return;
-    const std::size_t i = grid_.index(cell) - layer_ * std::size_t(first_);
+    const std::size_t i = own_.index({cell[0] - slab_.first[0], cell[1] - slab_.first[1], cell[2] - slab_.first[2]});
     if (!(float(distance) < distance_[i])) return;
     distance_[i] = float(distance);
     nearest_[i] = number;
   }
 
   const VoxelGrid& grid_;
-  const int first_, last_;
-  const std::size_t layer_;
+  const CellBox& box_;
+  const CellBox slab_;
+  const VoxelGrid own_;  // of the slab
   std::vector<float> distance_;
   std::vector<std::uint32_t> nearest_;
 };
 
+// A triangle that passes through cells of a box, and the layers of these.
+struct NearTriangle {
+  std::uint32_t number;
+  int first, last;  // inclusive
+};
+
+std::vector<NearTriangle> find_near(const VoxelGrid& grid, const CellBox& box, const Solids& solids) {
+  std::vector<NearTriangle> near;
+  for (const SolidPiece& piece : solids.pieces) {
+    if (cut(find_range(grid, piece.box, kReach * grid.voxel), box).empty()) continue;
+    for (std::size_t t = piece.first; t < piece.last; ++t) {
+      const CellBox r = cut(find_range(grid, bounds(solids.triangle(t)), kReach * grid.voxel), box);
+      if (!r.empty()) near.push_back({std::uint32_t(t), r.first[2], r.last[2]});
+    }
+  }
+  return near;
+}
+
 void add_solid(const TriangleMesh& mesh, const Pose& world_from_body, double scale, int type, Solids& result) {
-  std::vector<Vec3> corners;
   SolidPiece piece;
   piece.type = type;
+  const std::uint32_t first = std::uint32_t(result.corners.size());
   for (const Vec3f& p : mesh.positions) {
-    corners.push_back(world_from_body * (Vec3(p) * scale));
-    piece.box.include(corners.back());
+    result.corners.push_back(world_from_body * (Vec3(p) * scale));
+    piece.box.include(result.corners.back());
   }
   piece.first = result.triangles.size();
-  for (const auto& t : mesh.triangles) {
-    result.triangles.push_back({corners.at(t[0]), corners.at(t[1]), corners.at(t[2])});
-  }
+  for (const auto& t : mesh.triangles) result.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   piece.last = result.triangles.size();
   result.pieces.push_back(piece);
 }
@@ -186,6 +201,7 @@ void add_solid(const TriangleMesh& mesh, const Pose& world_from_body, double sca
 
 Solids place_solids(const PileState& pile, const std::vector<const TriangleMesh*>& meshes) {
   Solids result;
+  result.pile_state = pile.state_hash();
   for (const PieceState& state : pile.pieces) {
     if (state.status == PieceStatus::lost) continue;
     const std::size_t type = std::size_t(state.type);
@@ -199,34 +215,29 @@ Solids place_solids(const PileState& pile, const std::vector<const TriangleMesh*
   return result;
 }
 
-void fill_solids(const VoxelGrid& grid, const Solids& solids, ThreadPool& pool, std::vector<CellKind>& kind) {
+void fill_solids(const VoxelGrid& grid, const Solids& solids, ThreadPool& pool, CellKinds& kind) {
   pool.run(int(solids.pieces.size()), 4, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const SolidPiece& piece = solids.pieces[std::size_t(i)];
-      const CellRange range = find_range(grid, piece.box, 0);
+      const CellBox range = find_range(grid, piece.box, 0);
       if (range.empty()) continue;
       Columns columns(grid, range);
-      for (std::size_t t = piece.first; t < piece.last; ++t) columns.add(solids.triangles[t]);
+      for (std::size_t t = piece.first; t < piece.last; ++t) columns.add(solids.triangle(t));
       columns.mark(kind);
     }
   });
 }
 
-VoxelSurface find_surface(const VoxelGrid& grid, const Solids& solids, ThreadPool& pool) {
-  const int slabs = (grid.size[2] + kSlab - 1) / kSlab;
-  std::vector<VoxelSurface> parts(std::size_t(std::max(0, slabs)));
+VoxelSurface find_surface(const VoxelGrid& grid, const CellBox& box, const Solids& solids, ThreadPool& pool) {
+  const std::vector<NearTriangle> near = find_near(grid, box, solids);
+  const int slabs = (box.last[2] - box.first[2]) / kSlab + 1;
+  std::vector<VoxelSurface> parts{std::size_t(slabs)};
   pool.run(slabs, 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      const int first = i * kSlab, last = std::min(grid.size[2], first + kSlab);
-      SurfaceSlab slab(grid, first, last);
-      const double reach = kReach * grid.voxel;
-      const double low = grid.corner.z + first * grid.voxel - reach;
-      const double high = grid.corner.z + last * grid.voxel + reach;
-      for (const SolidPiece& piece : solids.pieces) {
-        if (piece.box.min.z > high || piece.box.max.z < low) continue;
-        for (std::size_t t = piece.first; t < piece.last; ++t)
-          slab.add(solids.triangles[t], std::uint32_t(t));
-      }
+      const int first = box.first[2] + i * kSlab, last = std::min(box.last[2], first + kSlab - 1);
+      SurfaceSlab slab(grid, box, first, last);
+      for (const NearTriangle& t : near)
+        if (t.first <= last && t.last >= first) slab.add(solids.triangle(t.number), t.number);
       slab.append_to(parts[std::size_t(i)]);
     }
   });

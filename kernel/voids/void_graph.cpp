@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "kernel/voids/cell_slots.h"
@@ -56,22 +55,24 @@ class Watershed {
   }
 
   void visit(std::uint32_t i) {
-    std::set<std::uint32_t> around;
+    around_.clear();
     bool at_outside = false;
     for_each_neighbour(space_.grid, i, [&](std::size_t k) {
       if (space_.kind[k] == CellKind::outside) at_outside = true;
       const std::uint32_t slot = slots_[k];
       if (slot == kNoSlot || basin_of_[slot] == kUnvisited) return;
-      around.insert(find(basin_of_[slot]));
+      around_.push_back(find(basin_of_[slot]));
     });
-    if (around.empty()) {
+    if (around_.empty()) {
       basins_.push_back({i, std::uint32_t(basins_.size())});
-      around.insert(std::uint32_t(basins_.size() - 1));
+      around_.push_back(std::uint32_t(basins_.size() - 1));
     }
+    std::sort(around_.begin(), around_.end());
+    around_.erase(std::unique(around_.begin(), around_.end()), around_.end());
     // The widest peak is the oldest basin, the one with the lowest number.
-    const std::uint32_t widest = *around.begin();
+    const std::uint32_t widest = around_.front();
     basin_of_[slots_[i]] = widest;
-    for (const std::uint32_t basin : around)
+    for (const std::uint32_t basin : around_)
       if (basin != widest) meet(widest, basin, i);
     if (at_outside) meetings_.push_back({widest, kOutside, i});
   }
@@ -116,6 +117,7 @@ class Watershed {
   std::vector<std::uint32_t> basin_of_;  // of each of them
   std::vector<Basin> basins_;
   std::vector<Meeting> meetings_;
+  std::vector<std::uint32_t> around_;  // the basins beside the cell at hand
 };
 
 }  // namespace

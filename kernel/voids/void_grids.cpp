@@ -86,7 +86,7 @@ double count_area(const Solids& solids, const VoidSpaceOptions& options) {
       continue;
     }
     for (std::size_t i = piece.first; i < piece.last; ++i) {
-      const QueryTriangle& t = solids.triangles[i];
+      const QueryTriangle t = solids.triangle(i);
       area += norm(cross(t.b - t.a, t.c - t.a)) / 2;
     }
   }

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "kernel/base/error.h"
-#include "kernel/base/parallel.h"
 
 namespace rubble {
 namespace {
@@ -37,16 +36,15 @@ VoidMap find_voids(VoidSpace space, const std::vector<double>& radii,
     if (progress && !progress(done)) throw RunError("stopped while looking for voids");
   };
   VoidMap map;
-  // Neither can be shared among threads, but there are two of them.
-  parallel_for(2, 2, [&](std::size_t i) {
-    if (i == 0) map.widest = find_widest_paths(space);
-    if (i == 1 && !radii.empty()) map.graph = make_graph(space, radii);
-  });
-  report(0.3);
+  // Each takes memory of its own while it is at work; what is kept of the widest paths is the most, so they come last.
+  if (!radii.empty()) map.graph = make_graph(space, radii);
+  report(0.2);
   for (std::size_t i = 0; i < radii.size(); ++i) {
-    map.robots.push_back(find_robot_voids(space, map.widest, radii[i], 0));
-    report(0.3 + 0.7 * double(i + 1) / double(radii.size()));
+    map.robots.push_back(find_robot_voids(space, radii[i], 0));
+    report(0.2 + 0.4 * double(i + 1) / double(radii.size()));
   }
+  map.widest = find_widest_paths(space);
+  for (RobotVoids& robot : map.robots) add_bottlenecks(space, map.widest, robot);
   map.void_volume = space.volume(CellKind::free_void);
   map.covered_volume = space.covered_volume();
   map.solid_volume = space.volume(CellKind::solid);

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "kernel/voids/cell_runs.h"
 #include "kernel/voids/void_space.h"
 #include "kernel/voids/widest_path.h"
 
@@ -36,8 +37,8 @@ struct Void {
   std::vector<Entrance> entrances;   // widest first; empty: sealed for this robot
   double bottleneck_radius = 0;      // of the widest path from outside to `widest`; 0: no path; unit: m
   Vec3 bottleneck;                   // narrowest place of that path
-  std::vector<std::uint32_t> cells;  // covered by the robot, ascending
-  std::vector<std::uint32_t> places;  // possible cells of its centre, ascending
+  CellRuns cells;   // covered by the robot
+  CellRuns places;  // possible cells of its centre
 };
 
 struct RobotVoids {
@@ -80,9 +81,10 @@ VoidMap find_voids(VoidSpace space, const std::vector<double>& radii,
 // unit: m. Infinite in a sealed void.
 std::vector<double> calc_ways_in(const VoidSpace& space, const Void& v);
 
-// The parts of find_voids(). A cell belongs to the void when its clearance is >= radius. widest: of the same space.
-RobotVoids find_robot_voids(const VoidSpace& space, const WidestPaths& widest, double radius,
-                            int threads);
+// The parts of find_voids(). A cell belongs to the void when its clearance is >= radius. Bottlenecks are added later.
+RobotVoids find_robot_voids(const VoidSpace& space, double radius, int threads);
+// widest: of the same space.
+void add_bottlenecks(const VoidSpace& space, const WidestPaths& widest, RobotVoids& robot);
 // smallest: smallest clearance of a cell. A chamber must be wider by `persistence` than the throat to the next wider
 // chamber; unit: m.
 VoidGraph find_graph(const VoidSpace& space, double smallest, double persistence);

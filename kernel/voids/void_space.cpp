@@ -2,44 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <utility>
 
 #include "kernel/base/error.h"
-#include "kernel/geometry/distance_transform.h"
 #include "kernel/model/range_check.h"
 #include "kernel/voids/ball_cover.h"
+#include "kernel/voids/clearance_survey.h"
 #include "kernel/voids/rolling_ball.h"
 #include "kernel/voids/solid_voxels.h"
 #include "kernel/voids/void_grids.h"
 
 namespace rubble {
 namespace {
-
-// Of some triangles of a surface the distance to the nearest.
-class NearestTriangle {
- public:
-  NearestTriangle(const Solids& solids, const VoxelSurface& surface, const Vec3& from)
-      : solids_(solids), surface_(surface), from_(from) {}
-
-  void consider(std::uint32_t seed) {  // number of a surface cell
-    if (seed == kNoSeed) return;
-    const std::uint32_t triangle = surface_.triangles[seed];
-    if (triangle == last_) return;
-    last_ = triangle;
-    const Vec3 d = find_closest(solids_.triangles[triangle], from_) - from_;
-    square_ = std::min(square_, dot(d, d));
-  }
-  float distance() const { return float(std::sqrt(square_)); }
-
- private:
-  const Solids& solids_;
-  const VoxelSurface& surface_;
-  const Vec3 from_;
-  std::uint32_t last_ = kNoSeed;
-  double square_ = 1e12;
-};
 
 // Everything that is worked out on the way to a VoidSpace, from the top down.
 class Builder {
@@ -50,18 +25,18 @@ class Builder {
   VoidSpace build() {
     VoidSpace map = make_space(grids_.map);
     if (grids_.is_one()) {
-      measure(map, 0, 0.7);
-      solids_ = {};
+      measure(map, true, 0, 0.7);
       sweep_outside(map, options_.ground, pool_);
       report(0.95);
     } else {
       sweep_by_large_cells(map, 0.25);
-      measure(map, 0.25, 0.95);
+      measure(map, !options_.margin, 0.25, 0.95);
     }
+    solids_ = {};
     if (options_.ground) clip_to_ground(map);
     if (options_.margin) {
+      if (grids_.is_one()) keep_voids(map);
       map = crop_to_pile(std::move(map), *options_.margin);
-      keep_voids(map);
     }
     report(1);
     return map;
@@ -75,75 +50,40 @@ class Builder {
   VoidSpace make_space(const VoxelGrid& grid) const {
     VoidSpace space;
     space.grid = grid;
-    space.kind.assign(grid.count(), CellKind::free_void);
+    space.kind = CellKinds(grid.count());
     space.rolling_radius = options_.rolling_radius;
     return space;
   }
 
   void sweep_by_large_cells(VoidSpace& map, double end) {
     VoidSpace balls = make_space(grids_.ball);
-    measure(balls, 0, 0.7 * end);
+    measure(balls, true, 0, 0.7 * end);
     roll_ball(balls, options_.ground);
     cover_by_balls(balls, map, pool_);
     report(end);
   }
 
-  // Solids, and the clearance from the pieces.
-  void measure(VoidSpace& space, double begin, double end) {
+  // Solids, and the clearance from the pieces; the ground is added when the ball has rolled.
+  // all: of all cells, else of voids and their borders.
+  void measure(VoidSpace& space, bool all, double begin, double end) {
     const auto part = [&](double done) { report(begin + (end - begin) * done); };
     fill_solids(space.grid, solids_, pool_, space.kind);
     part(0.2);
-    const VoxelSurface surface = find_surface(space.grid, solids_, pool_);
-    part(0.6);
-    measure_clearance(space, surface);
-    part(1);
-  }
-
-  // From the pieces alone; the ground is added when the ball has rolled. Near is what is nearest
-  // to the cell itself or, since that was the nearest of surface *cells*, to one beside it.
-  // The nearest surface cells are found in the memory of the clearance, which replaces them layer
-  // by layer.
-  void measure_clearance(VoidSpace& space, const VoxelSurface& surface) {
-    const VoxelGrid& grid = space.grid;
-    float* const values = space.clearance.of_all(grid.count()).data();
-    find_nearest_seeds(grid, surface.cells, pool_, values);
-    const std::size_t row = std::size_t(grid.size[0]), layer = row * std::size_t(grid.size[1]);
-    std::vector<std::uint32_t> below(layer), here(layer);
-    for (int z = 0; z < grid.size[2]; ++z) {
-      const std::size_t first = std::size_t(z) * layer;
-      std::memcpy(here.data(), values + first, 4 * layer);
-      pool_.run(grid.size[1], 8, [&](int begin, int end) {
-        for (int y = begin; y < end; ++y)
-          for (int x = 0; x < grid.size[0]; ++x) {
-            const std::size_t c = std::size_t(x) + row * std::size_t(y);
-            if (space.kind[first + c] == CellKind::solid) {
-              values[first + c] = 0;
-              continue;
-            }
-            NearestTriangle found(solids_, surface, grid.centre(Cell{x, y, z}));
-            found.consider(here[c]);
-            if (x > 0) found.consider(here[c - 1]);
-            if (x + 1 < grid.size[0]) found.consider(here[c + 1]);
-            if (y > 0) found.consider(here[c - row]);
-            if (y + 1 < grid.size[1]) found.consider(here[c + row]);
-            if (z > 0) found.consider(below[c]);
-            if (z + 1 < grid.size[2]) found.consider(seed_at(values, first + layer + c));
-            values[first + c] = found.distance();
-          }
-      });
-      std::swap(below, here);
-    }
+    if (all)
+      space.clearance = CellClearance(space.grid.count());
+    else
+      keep_voids(space);
+    measure_clearance(space, solids_, pool_, [&](double done) { part(0.2 + 0.8 * done); });
   }
 
   void clip_to_ground(VoidSpace& space) {
     const VoxelGrid& grid = space.grid;
     const std::size_t layer = std::size_t(grid.size[0]) * std::size_t(grid.size[1]);
-    std::vector<float>& values = space.clearance.of_all(grid.count());
     pool_.run(grid.size[2], 1, [&](int begin, int end) {
       for (int z = begin; z < end; ++z) {
         const double height = std::max(0.0, grid.centre(Cell{0, 0, z}).z);
         for (std::size_t i = std::size_t(z) * layer; i < (std::size_t(z) + 1) * layer; ++i)
-          values[i] = float(std::min(double(values[i]), height));
+          space.clearance.set(i, float(std::min(double(space.clearance[i]), height)));
       }
     });
   }
@@ -180,32 +120,41 @@ void VoidSpaceOptions::validate() const {
 }
 
 double VoidSpace::volume(CellKind wanted) const {
-  return double(std::count(kind.begin(), kind.end(), wanted)) * cell_volume();
+  return double(kind.count(wanted)) * cell_volume();
 }
 
 double VoidSpace::covered_volume() const {
   const std::size_t layer = std::size_t(grid.size[0]) * std::size_t(grid.size[1]);
-  std::vector<bool> roofed(layer, false);
+  std::vector<char> roofed(layer, 0);
   std::size_t covered = 0;
-  for (std::size_t i = kind.size(); i-- > 0;) {  // from the top down
-    if (kind[i] == CellKind::solid)
-      roofed[i % layer] = true;
-    else
-      covered += roofed[i % layer];
+  for (std::size_t first = kind.size(); first > 0;) {  // from the top down
+    first -= layer;
+    for (std::size_t c = 0; c < layer; ++c) {
+      if (kind[first + c] == CellKind::solid)
+        roofed[c] = 1;
+      else
+        covered += std::size_t(roofed[c]);
+    }
   }
   return double(covered) * cell_volume();
 }
 
 VoidSpace calc_void_space(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
-                          const VoidSpaceOptions& asked, const VoidProgress& progress) {
+                          const VoidSpaceOptions& options, const VoidProgress& progress) {
+  options.validate();
+  return calc_void_space(place_solids(pile, meshes), options, progress);
+}
+
+VoidSpace calc_void_space(Solids solids, const VoidSpaceOptions& asked, const VoidProgress& progress) {
   asked.validate();
-  Solids solids = place_solids(pile, meshes);
   VoidSpaceOptions options = asked;
-  if (const double fitting = fitting_voxel(solids, asked); fitting <= asked.coarsest.value_or(asked.voxel)) options.voxel = fitting;
+  const double fitting = fitting_voxel(solids, asked);
+  if (fitting <= asked.coarsest.value_or(asked.voxel)) options.voxel = fitting;
   check_memory(solids, options);
   const VoidGrids grids = plan_grids(solids, options);
+  const std::uint64_t pile_state = solids.pile_state;
   VoidSpace space = Builder(std::move(solids), grids, options, progress).build();
-  space.pile_state = pile.state_hash();
+  space.pile_state = pile_state;
   return space;
 }
 

@@ -17,6 +17,7 @@
 #include "kernel/model/pile_state.h"
 #include "kernel/geometry/voxel_grid.h"
 #include "kernel/voids/cell_clearance.h"
+#include "kernel/voids/cell_kinds.h"
 
 namespace rubble {
 
@@ -48,11 +49,9 @@ struct VoidSpaceOptions {
   void validate() const;  // throws InputError naming the field
 };
 
-enum class CellKind : std::uint8_t { outside, free_void, solid };
-
 struct VoidSpace {
   VoxelGrid grid;              // numbers the cells of the two lists below
-  std::vector<CellKind> kind;  // one a cell
+  CellKinds kind;              // of each cell
   // Distance from the centre of a cell to the surface; 0 in solids. It is the exact distance to the nearest triangle,
   // or in rare cases to a triangle beside it that is less than half a voxel farther. Never too small. With
   // VoidSpaceOptions::margin 0 also in cells outside that share no face with a void; unit: m.
@@ -73,6 +72,10 @@ using VoidProgress = std::function<bool(double done)>;
 // size that fits.
 VoidSpace calc_void_space(const PileState& pile, const std::vector<const TriangleMesh*>& meshes,
                           const VoidSpaceOptions& options = {}, const VoidProgress& progress = {});
+
+// The same of place_solids(), so that neither the pile nor the meshes must stay in memory.
+struct Solids;
+VoidSpace calc_void_space(Solids solids, const VoidSpaceOptions& options, const VoidProgress& progress = {});
 
 // Reduces the space to all solid and void cells with a margin (unit: m; at least a voxel). The rolling ball needs more
 // room; voids do not: find_voids() gives the same result with less memory. Paths through the outside have less room.

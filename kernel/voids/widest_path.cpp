@@ -2,31 +2,41 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 namespace rubble {
 namespace {
 
 constexpr double kLevelsPerVoxel = 16;
 
+// The largest clearance of a cell outside beside this one; -1: there is none.
+float calc_entry(const VoidSpace& space, std::size_t i) {
+  float widest = -1;
+  for_each_neighbour(space.grid, i, [&](std::size_t k) {
+    if (space.kind[k] == CellKind::outside) widest = std::max(widest, space.clearance[k]);
+  });
+  return widest;
+}
+
 class Flood {
  public:
   explicit Flood(const VoidSpace& space) : space_(space) {
-    paths_.cells = CellSlots(space.kind.size(),
-                             [&](std::size_t i) { return space.kind[i] == CellKind::free_void; });
-    paths_.radius.assign(paths_.cells.count(), 0);
-    paths_.narrowest.assign(paths_.cells.count(), kNoCell);
+    const auto is_void = [&](std::size_t i) { return space.kind[i] == CellKind::free_void; };
+    paths_.cells = space.clearance.kept();
+    if (!paths_.cells) paths_.cells = std::make_shared<const CellSlots>(space.kind.size(), is_void);
+    paths_.narrowest.assign(paths_.cells->count(), kNoCell);
+    paths_.is_entry_narrower.assign(paths_.cells->count(), false);
   }
 
   WidestPaths run() {
     enter_from_outside();
     for (std::size_t level = levels_.size(); level-- > 0;) {
       // Cells may be added to this level, never to a higher one, while it is worked through.
-      for (std::size_t k = 0; k < levels_[level].size(); ++k) {
-        const std::size_t i = levels_[level][k];
-        if (find_level(paths_.radius[paths_.cells[i]]) == level)
-          spread(i);  // else a wider way was found since
+      for (std::deque<std::uint32_t>& front = levels_[level]; !front.empty(); front.pop_front()) {
+        const float radius = paths_.radius(space_, front.front());
+        if (find_level(radius) == level) spread(front.front(), radius);  // else a wider way was found since
       }
-      levels_[level] = {};
+      levels_.pop_back();
     }
     return std::move(paths_);
   }
@@ -35,11 +45,8 @@ class Flood {
   void enter_from_outside() {
     for (std::size_t i = 0; i < space_.kind.size(); ++i) {
       if (space_.kind[i] != CellKind::free_void) continue;
-      float widest = -1;
-      for_each_neighbour(space_.grid, i, [&](std::size_t k) {
-        if (space_.kind[k] == CellKind::outside) widest = std::max(widest, space_.clearance[k]);
-      });
-      if (widest >= 0) reach(i, std::min(widest, space_.clearance[i]), std::uint32_t(i));
+      const float here = space_.clearance[i], entry = calc_entry(space_, i);
+      if (entry >= 0) reach(i, (*paths_.cells)[i], std::min(entry, here), std::uint32_t(i), entry < here);
     }
   }
 
@@ -47,35 +54,50 @@ class Flood {
     return std::size_t(std::floor(radius / space_.grid.voxel * kLevelsPerVoxel));
   }
 
-  void reach(std::size_t i, float radius, std::uint32_t narrowest) {
-    const std::size_t slot = paths_.cells[i];
-    if (paths_.narrowest[slot] != kNoCell && paths_.radius[slot] >= radius) return;
-    paths_.radius[slot] = radius;
+  // Whether the way by that narrowest cell is as wide as the one that is known, without a look at any clearance.
+  bool is_no_wider(std::size_t i, std::size_t slot, std::uint32_t narrowest, bool is_entry_narrower) const {
+    const std::uint32_t known = paths_.narrowest[slot];
+    if (known != narrowest && known != i) return false;
+    return !paths_.is_entry_narrower[slot] || (known == narrowest && is_entry_narrower);
+  }
+
+  void reach(std::size_t i, std::size_t slot, float radius, std::uint32_t narrowest, bool is_entry_narrower) {
+    if (paths_.narrowest[slot] != kNoCell && paths_.radius(space_, i) >= radius) return;
     paths_.narrowest[slot] = narrowest;
+    paths_.is_entry_narrower[slot] = is_entry_narrower;
     const std::size_t level = find_level(radius);
     if (levels_.size() <= level) levels_.resize(level + 1);
     levels_[level].push_back(std::uint32_t(i));
   }
 
-  void spread(std::size_t i) {
-    const float radius = paths_.radius[paths_.cells[i]];
-    const std::uint32_t narrowest = paths_.narrowest[paths_.cells[i]];
+  void spread(std::size_t i, float radius) {
+    const std::size_t from = (*paths_.cells)[i];
+    const std::uint32_t narrowest = paths_.narrowest[from];
+    const bool is_entry_narrower = paths_.is_entry_narrower[from];
     for_each_neighbour(space_.grid, i, [&](std::size_t k) {
       if (space_.kind[k] != CellKind::free_void) return;
+      const std::size_t slot = (*paths_.cells)[k];
+      if (is_no_wider(k, slot, narrowest, is_entry_narrower)) return;
       const float here = space_.clearance[k];
       if (here < radius)
-        reach(k, here, std::uint32_t(k));
+        reach(k, slot, here, std::uint32_t(k), false);
       else
-        reach(k, radius, narrowest);
+        reach(k, slot, radius, narrowest, is_entry_narrower);
     });
   }
 
   const VoidSpace& space_;
   WidestPaths paths_;
-  std::vector<std::vector<std::uint32_t>> levels_;
+  std::deque<std::deque<std::uint32_t>> levels_;  // cells to spread from, by their radius
 };
 
 }  // namespace
+
+float WidestPaths::radius(const VoidSpace& space, std::size_t cell) const {
+  const std::size_t slot = (*cells)[cell];
+  if (narrowest[slot] == kNoCell) return 0;
+  return is_entry_narrower[slot] ? calc_entry(space, narrowest[slot]) : space.clearance[narrowest[slot]];
+}
 
 WidestPaths find_widest_paths(const VoidSpace& space) { return Flood(space).run(); }
 

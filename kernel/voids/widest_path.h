@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "kernel/voids/cell_slots.h"
@@ -12,12 +13,15 @@ namespace rubble {
 inline constexpr std::uint32_t kNoCell = 0xffffffffu;
 
 struct WidestPaths {
-  CellSlots cells;  // of the void; numbers the two lists below
-  // Radius of the largest ball that can reach the cell from outside, or 0: the maximum over all
-  // paths of the smallest clearance along the path; unit: m. Exact to 1/16 voxel.
-  std::vector<float> radius;
-  // The narrowest cell of that path, as an index of the grid; kNoCell without a path.
+  std::shared_ptr<const CellSlots> cells;  // those of the void, and maybe others; numbers the two lists below
+  // The narrowest cell of the widest path from outside to the cell, as an index of the grid; kNoCell without a path.
   std::vector<std::uint32_t> narrowest;
+  // Whether the cell outside before the narrowest is narrower still.
+  std::vector<bool> is_entry_narrower;
+
+  // Radius of the largest ball that can reach a cell of the void from outside, or 0: the maximum over all paths of the
+  // smallest clearance along the path; unit: m. space: of these paths.
+  float radius(const VoidSpace& space, std::size_t cell) const;
 };
 
 // A priority flood from the border of the void (Barnes, Lehman

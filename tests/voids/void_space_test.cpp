@@ -9,6 +9,7 @@
 #include "kernel/base/error.h"
 #include "kernel/base/random.h"
 #include "kernel/queries/queries.h"
+#include "kernel/voids/clearance_survey.h"
 #include "kernel/voids/void_map.h"
 #include "tests/base/peak_memory.h"
 #include "void_scenes.h"
@@ -259,6 +260,29 @@ TEST(VoidSpace, IsTheSameWithLittleOfTheOutside) {
   }
   EXPECT_LT(other, part.kind.size() / 1000) << "corners of cells are rounded in other places";
   EXPECT_NEAR(part.volume(CellKind::free_void), whole.volume(CellKind::free_void), 0.001);
+}
+
+// Tile by tile as in one piece, to the bit: also of cells whose nearest surface is far beyond the tile.
+TEST(VoidSpace, ClearanceOfSomeCellsIsThatOfAll) {
+  RandomStream random(5, "tiles");
+  VoidScene scene;
+  for (int i = 0; i < 60; ++i)
+    scene.add(testing::make_box({-0.05, -0.1, -0.02}, {0.05, 0.1, 0.02}),
+              turned(random, {random.uniform(0, 3), random.uniform(0, 5), random.uniform(0, 0.4)}));
+  const Solids solids = place_solids(scene.pile, scene.pointers());
+  ThreadPool pool(2);
+  VoidSpace all;
+  all.grid.voxel = 0.02, all.grid.corner = {-0.5, -0.5, -0.1}, all.grid.size = {350, 300, 30};
+  all.kind = CellKinds(all.grid.count());
+  fill_solids(all.grid, solids, pool, all.kind);
+  VoidSpace some = all;
+  std::vector<bool> wanted(all.grid.count());
+  for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = random.below(3) == 0;
+  all.clearance = CellClearance(all.grid.count());
+  some.clearance.keep(wanted);
+  for (VoidSpace* space : {&all, &some}) measure_clearance(*space, solids, pool, [](double) {});
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    ASSERT_EQ(some.clearance[i], wanted[i] ? all.clearance[i] : 0) << "cell " << i;
 }
 
 // With terrain, the nearest surface may be where the map is not.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/colour/colour_pass.h"
+#include "render/device/device_lamp.h"
 #include "render/geometry/ground_map.h"
 #include "render/geometry/scene_tables.h"
 #include "render/materials/textures.h"
@@ -49,6 +50,11 @@ class DeviceScene {
   virtual void move() = 0;
   // The light of an image, which stays where it is. changed: where it differs from what was given before; null: anywhere.
   virtual void set_light(const LightTable& light, const std::vector<LightRange>* changed) = 0;
+  // Null: this device does not find the lamp's light; the processor adds it to what set_light() gets. Else the same for all
+  // calls, and it may be asked for before the first picture alone. links: must outlive it; first_point: as LampBounce.
+  virtual DeviceLamp* lamp(const BakeLinks& links, const std::vector<std::uint32_t>& first_point) {
+    return (void)links, (void)first_point, nullptr;
+  }
   // What it refers to must outlive it, and this must. light: without what depends on the view.
   virtual std::unique_ptr<ColourPass> make_colour_pass(const FrameLight& light, const GroundMap& ground,
                                                        const std::vector<PatternImage>& patterns) = 0;

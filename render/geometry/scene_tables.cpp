@@ -16,20 +16,6 @@ std::uint32_t float_bits(float x) {
   return bits;
 }
 
-// Octahedral normal in two 16-bit signed parts (Cigolle et al. 2014).
-std::uint32_t pack_normal(const Vec3f& n) {
-  const float sum = std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z);
-  if (sum == 0) return 0x7fff;
-  float u = n.x / sum, v = n.y / sum;
-  if (n.z < 0) {
-    const float w = (1 - std::fabs(v)) * (u >= 0 ? 1.0f : -1.0f);
-    v = (1 - std::fabs(u)) * (v >= 0 ? 1.0f : -1.0f);
-    u = w;
-  }
-  const auto part = [](float x) { return std::uint32_t(std::lround(x * 32767.0f)) & 0xffffu; };
-  return part(u) | part(v) << 16;
-}
-
 using Texel = SceneTables::Texel;
 
 void append_placed(const PlacedMesh& piece, std::uint32_t first_vertex, std::vector<Texel>& out) {
@@ -123,6 +109,19 @@ std::vector<Texel> make_paint_table(const PreparedScene& scene, const TriangleNa
 }
 
 }  // namespace
+
+std::uint32_t pack_normal(const Vec3f& n) {
+  const float sum = std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z);
+  if (sum == 0) return 0x7fff;
+  float u = n.x / sum, v = n.y / sum;
+  if (n.z < 0) {
+    const float w = (1 - std::fabs(v)) * (u >= 0 ? 1.0f : -1.0f);
+    v = (1 - std::fabs(u)) * (v >= 0 ? 1.0f : -1.0f);
+    u = w;
+  }
+  const auto part = [](float x) { return std::uint32_t(std::lround(x * 32767.0f)) & 0xffffu; };
+  return part(u) | part(v) << 16;
+}
 
 SceneTables make_scene_tables(const PreparedScene& scene) {
   SceneTables out;

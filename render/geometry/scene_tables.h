@@ -34,5 +34,7 @@ struct SceneTables {
   void place(const PreparedScene& scene);  // where the pieces are now
 };
 SceneTables make_scene_tables(const PreparedScene& scene);
+// Octahedral, in two 16-bit signed parts (Cigolle et al. 2014): see shaders/packing.glsl.
+std::uint32_t pack_normal(const Vec3f& normal);
 
 }  // namespace rubble

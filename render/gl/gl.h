@@ -16,11 +16,13 @@ namespace rubble {
   X(BindTextureUnit, BINDTEXTUREUNIT)                           \
   X(BindVertexArray, BINDVERTEXARRAY)                           \
   X(CheckNamedFramebufferStatus, CHECKNAMEDFRAMEBUFFERSTATUS)   \
+  X(ClearNamedBufferData, CLEARNAMEDBUFFERDATA)                 \
   X(ClearNamedFramebufferfv, CLEARNAMEDFRAMEBUFFERFV)           \
   X(ClearNamedFramebufferuiv, CLEARNAMEDFRAMEBUFFERUIV)         \
   X(ClipControl, CLIPCONTROL)                                   \
   X(CompileShader, COMPILESHADER)                               \
   X(CopyImageSubData, COPYIMAGESUBDATA)                         \
+  X(CopyNamedBufferSubData, COPYNAMEDBUFFERSUBDATA)             \
   X(CreateBuffers, CREATEBUFFERS)                               \
   X(CreateFramebuffers, CREATEFRAMEBUFFERS)                     \
   X(CreateProgram, CREATEPROGRAM)                               \
@@ -38,6 +40,7 @@ namespace rubble {
   X(DepthMask, DEPTHMASK)                                       \
   X(Disable, DISABLE)                                           \
   X(DispatchCompute, DISPATCHCOMPUTE)                           \
+  X(DispatchComputeIndirect, DISPATCHCOMPUTEINDIRECT)           \
   X(DrawArrays, DRAWARRAYS)                                     \
   X(Enable, ENABLE)                                             \
   X(EnableVertexArrayAttrib, ENABLEVERTEXARRAYATTRIB)           \

@@ -67,6 +67,9 @@ class BakeLinks {
   const std::vector<Vec3f>& albedos;     // likewise
   const std::size_t per_point;
 
+  // All of them, as they are kept.
+  const std::vector<std::uint32_t>& hits() const { return hits_; }
+  const std::vector<std::uint32_t>& stand_ins() const { return stand_ins_; }
   // That many links, for sender().
   const std::uint32_t* of(std::size_t point) const {
     const std::uint32_t stand_in = stand_ins_[point];

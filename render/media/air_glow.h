@@ -20,6 +20,7 @@ struct LitAir {
   const LightSet& lights;     // that were baked
   const RadianceGrid* field;  // in this air, all but beams; null: it is not known, what is baked stands for it
   Aabb box;                   // in which the air weakens the beams
+  bool lamp_on_device = false;  // the device knows what the air scatters of the lamp's light, instead of the field
 };
 
 // What scatters light at a point: shares of fog, of dust and of drops.

@@ -112,7 +112,7 @@ void AirVolume::prepare(const ViewRays& view, const Air& air, const LitAir& lit,
   if (lit.field) {
     data.has_around = 1, data.rays_an_entry = kShared;
     data.around_columns = kColumns / kShared, data.around_rows = kRows / kShared;
-    if (lamp && !lit.field->of_lamp.empty()) {
+    if (lamp && (lit.lamp_on_device || !lit.field->of_lamp.empty())) {
       const Vec3f& cell = lit.field->grid.cell;
       data.near_glow = near_glow(lamp->cone, turned_cosine(air.fog_asymmetry())).table().front().data();
       data.has_near_glow = 1, data.near_glow_steps = int(NearGlow::kAngles);

@@ -12,7 +12,8 @@ layout(std430, binding = 2) readonly buffer FieldBlock {
   int has_lamp, has_seen, has_stand_in, has_lamp_stand_in, has_lamp_ends;
 } field;
 layout(std430, binding = 3) readonly buffer Seen { uint seen_corners[]; };  // four a word
-layout(std430, binding = 4) readonly buffer StandIn { uint stand_in[]; };  // of all, then of the lamp
+layout(std430, binding = 4) readonly buffer StandIn { uint stand_in[]; };
+layout(std430, binding = 6) readonly buffer LampStandIn { uint lamp_stand_in[]; };
 
 layout(std430, binding = 5) writeonly buffer AroundTable { vec4 around_rows[]; };
 // Sixteen colours a point. Of the lamp: what the air has scattered, then what surfaces have.
@@ -77,11 +78,10 @@ Corners corners_about(vec3 p, bool of_lamp) {
     if ((seen >> k & 1u) != 0u) sum += corners.weight[k];
   float share = min(sum / 0.25, 1.0);
   float of_seen = sum > 0.0 ? share / sum : 0.0, of_others = sum < 1.0 ? (1.0 - share) / (1.0 - sum) : 0.0;
-  int first = of_lamp ? count_points() : 0;
   for (int k = 0; k < 8; ++k) {
     bool is_seen = (seen >> k & 1u) != 0u;
     corners.weight[k] *= is_seen ? of_seen : of_others;
-    if (!is_seen) corners.at[k] = int(stand_in[first + corners.at[k]]);
+    if (!is_seen) corners.at[k] = int(of_lamp ? lamp_stand_in[corners.at[k]] : stand_in[corners.at[k]]);
   }
   return corners;
 }

@@ -13,8 +13,6 @@ namespace rubble {
 namespace {
 
 constexpr float kMostFactor = 4;  // of what fog does to baked light
-constexpr float kLampReach = 10;  // beyond which the lamp's light is left out, as in lamp_bounce.cpp; unit: m
-constexpr int kLampIterations = 12;
 constexpr int kPlaces = 32;       // of a cell, at which the lights are looked for
 constexpr float kFromAround = 0.1f;  // share of light from all around in what a surface is asked for
 constexpr float kPart = 0.15f;    // of a cell, whose middle tells which corners are seen there; unit: m
@@ -185,7 +183,7 @@ void FogLight::find_open() {
 
 void FogLight::set_air(const Air& air) {
   air_ = air;
-  matter_ = turning_matter(air, transfer_.links().grid);
+  matter_ = turning_matter(air, transfer_.links().grid), ++matter_version_;
   AirTransfer::Sources sources;
   sources.sky = sky_.data(), sources.surfaces = radiance_.data(), sources.usual = usual_;
   find_direct(&air_, sources);
@@ -261,10 +259,11 @@ void FogLight::weaken(const PreparedScene& scene, const LightTable& clear,
   });
 }
 
-void FogLight::set_lamp(const PlacedLamp& lamp, const Radiance& radiance, const std::function<bool(const Vec3f&)>& sees) {
+void FogLight::set_lamp(const LampReach& reach, const Radiance& radiance) {
+  const PlacedLamp& lamp = reach.lamp();
   AirTransfer::Sources sources;
   sources.surfaces = radiance.data(), sources.brighter = true;
-  sources.tolerance = 0.02, sources.most = kLampIterations;
+  sources.tolerance = kLampTolerance, sources.most = kLampIterations;
   const AirGrid& grid = field_.grid;
   sources.direct.resize(grid.count());
   const float cell = transfer_.links().cell();
@@ -272,7 +271,7 @@ void FogLight::set_lamp(const PlacedLamp& lamp, const Radiance& radiance, const 
     for (std::size_t i = std::size_t(begin); i < std::size_t(end); ++i) {
       const Vec3f p = grid.point(i), way = lamp.position - p;
       const float away = std::max(norm(way), 1e-3f);
-      if (away > kLampReach || !sees(p)) continue;
+      if (away > LampReach::kReach || !(away <= 1e-3f || reach.shines_on(p - lamp.position, away))) continue;
       const Vec3f to_lamp = way * (1 / away);
       // The mean over what the point stands for: next to the lamp the square of the distance is that of a cell.
       const float spread = away * away / (away * away + 0.1f * cell * cell);

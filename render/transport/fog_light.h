@@ -1,12 +1,12 @@
 // How fog and smoke change the light of a scene: what the air scatters, on surfaces and towards cameras.
 #pragma once
 
-#include <functional>
+#include <cstdint>
 #include <vector>
 
 #include "render/lighting/bake.h"
 #include "render/transport/air_transfer.h"
-#include "render/transport/scene_lights.h"
+#include "render/transport/lamp_reach.h"
 
 namespace rubble {
 
@@ -25,8 +25,8 @@ class FogLight {
   void weaken(const PreparedScene& scene, const LightTable& clear, const std::vector<std::uint32_t>& pieces,
               LightTable& out);
 
-  // Light of the lamp. radiance: of the bake points by it; sees: what it shines on directly.
-  void set_lamp(const PlacedLamp& lamp, const Radiance& radiance, const std::function<bool(const Vec3f&)>& sees);
+  // Light of the lamp. radiance: of the bake points by it.
+  void set_lamp(const LampReach& reach, const Radiance& radiance);
   void put_lamp_out();
   // Of a surface there by the light of the place, without direct sun, mean over all orientations; unit: klx
   float daylight(const Vec3f& point) const;
@@ -35,6 +35,14 @@ class FogLight {
 
   // All that comes to points of the air but beams.
   const RadianceGrid& field() const { return field_; }
+  // For a device that finds the lamp's light in the air itself. version: another number for other matter.
+  const AirLinks& links() const { return transfer_.links(); }
+  const AirMatter& matter() const { return matter_; }
+  std::uint64_t matter_version() const { return matter_version_; }
+  float usual_off() const;  // from surfaces, where the air's light is asked for; unit: m
+  // Of the lamp's light: by which change of all light its iteration ends, and after how many at most.
+  static constexpr double kLampTolerance = 0.02;
+  static constexpr int kLampIterations = 12;
 
  private:
   struct Place {       // of a bake point: where the air's light is asked for
@@ -51,7 +59,6 @@ class FogLight {
   void find_reached(const RayScene& rays);
   void find_direct(const Air* air, AirTransfer::Sources& out) const;
   void find_open();
-  float usual_off() const;  // from surfaces; unit: m
   Place place_of_mover(const Vec3f& surface, const Vec3f& normal) const;  // as what rests sees it
   Change change_at(const Vec3f& surface, const Vec3f& normal, const Place& place) const;
   void add_up();
@@ -63,6 +70,7 @@ class FogLight {
   AirTransfer transfer_;
   Air air_;
   AirMatter matter_;
+  std::uint64_t matter_version_ = 0;
   std::vector<Vec3f> sky_, usual_;              // by direction; mean radiance of each point in clear air
   std::vector<std::vector<float>> lit_;         // by each light: share of the air that each point stands for
   std::vector<std::vector<float>> reached_;     // by each light, as AirTransfer::Sources

@@ -13,24 +13,7 @@ namespace rubble {
 
 namespace {
 
-constexpr int kSide = 80;            // of the map of distances; a direction is about 1.9 degrees wide
-constexpr float kReach = 10;         // of the lamp's light, and of what comes of it; unit: m
-constexpr float kFade = 2;           // over which it ends; unit: m
-constexpr float kNear = 0.03f;       // what lies so little behind what the map says is lit; unit: m
-constexpr float kSlack = 0.03f;      // the same, as a share of the distance
 constexpr float kMostAgain = 0.6f;   // share of light that comes back from a bounce, at most
-
-// Of light so far from the lamp.
-float kept_at(float away) { return std::clamp((kReach - away) / kFade, 0.0f, 1.0f); }
-
-// The octahedral map of all directions.
-Vec3f direction_of(int x, int y) {
-  const float u = (float(x) + 0.5f) / kSide * 2 - 1, v = (float(y) + 0.5f) / kSide * 2 - 1;
-  Vec3f d(u, v, 1 - std::fabs(u) - std::fabs(v));
-  const float t = std::max(-d.z, 0.0f);
-  d.x += d.x >= 0 ? -t : t, d.y += d.y >= 0 ? -t : t;
-  return normalized(d);
-}
 
 Vec3f colour_of(const AirTransfer::Colour& c) { return {c.c[0], c.c[1], c.c[2]}; }
 
@@ -46,55 +29,14 @@ void copy_changed(const LightTable& from, LightTable& to) {
 
 }  // namespace
 
-LampBounce::LampBounce(const PreparedScene& scene, SceneRays& rays, const BakeLinks& links,
-                       std::vector<std::uint32_t> first_point, ThreadPool& pool)
-    : scene_(scene),
-      links_(links),
-      first_point_(std::move(first_point)),
-      pool_(pool),
-      rays_(rays),
-      map_(std::size_t(kSide) * kSide) {
+LampBounce::LampBounce(const PreparedScene& scene, const BakeLinks& links, const std::vector<std::uint32_t>& first_point,
+                       ThreadPool& pool)
+    : scene_(scene), links_(links), first_point_(first_point), pool_(pool) {
   const std::size_t points = links_.places.size();
   lit_.resize(points / 64 + 1);
   radiance_.resize(points), once_.resize(points), arrived_.resize(points);
   point_shows_.resize(points), node_shows_.resize(scene.light_nodes);
   is_seen_.resize(scene.placed.size());
-}
-
-void LampBounce::cast_map(const Vec3f& from) {
-  const RayScene& scene_rays = rays_.solid();
-  pool_.run(kSide, 8, [&](int begin, int end) {
-    std::array<RayScene::Ray, kSide> rays;
-    std::array<RayScene::PreciseHit, kSide> hits;
-    for (int y = begin; y < end; ++y) {
-      for (int x = 0; x < kSide; ++x) rays[std::size_t(x)] = {from, 0, direction_of(x, y), kReach};
-      scene_rays.cast_many(rays.data(), rays.size(), RayScene::Order::coherent, hits.data());
-      for (std::size_t x = 0; x < kSide; ++x)
-        map_[std::size_t(y) * kSide + x] = hits[x].triangle == RayScene::kNone ? kReach : hits[x].distance;
-    }
-  });
-}
-
-float LampBounce::distance_towards(const Vec3f& d) const {
-  const float flat = 1 / (std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z));
-  float u = d.x * flat, v = d.y * flat;
-  if (d.z < 0) {
-    const float folded = (1 - std::fabs(v)) * (u >= 0 ? 1.0f : -1.0f);
-    v = (1 - std::fabs(u)) * (v >= 0 ? 1.0f : -1.0f);
-    u = folded;
-  }
-  const auto texel = [](float a) { return std::clamp(int((a * 0.5f + 0.5f) * kSide), 0, kSide - 1); };
-  return map_[std::size_t(texel(v) * kSide + texel(u))];
-}
-
-// Not where all of it lies behind what the lamp meets first.
-bool LampBounce::may_see(const PlacedMesh& piece) const {
-  const Vec3f way = piece.centre - lamp_.position;
-  const float away = norm(way);
-  if (away - piece.radius > kReach) return false;
-  // A piece that fills more than a few directions may stick out somewhere.
-  if (away < 12 * piece.radius) return true;
-  return away - piece.radius < distance_towards(way * (1 / away)) * (1 + kSlack) + kNear;
 }
 
 std::size_t LampBounce::count_points(std::uint32_t piece) const {
@@ -114,20 +56,19 @@ void LampBounce::for_seen(const Work& work) {
 
 void LampBounce::light_points() {
   for_seen([&](std::size_t i) { radiance_[i] = Light(); });  // of the lamp before
-  seen_.clear();
-  for (std::uint32_t piece = 0; piece < scene_.placed.size(); ++piece) {
-    is_seen_[piece] = first_point_[piece] != kNoPoints && may_see(scene_.placed[piece]);
-    if (is_seen_[piece]) seen_.push_back(piece);
-  }
+  for (const std::uint32_t piece : seen_) is_seen_[piece] = 0;
+  seen_ = reach_->seen();
+  for (const std::uint32_t piece : seen_) is_seen_[piece] = 1;
+  const PlacedLamp& lamp = reach_->lamp();
   for_seen([&](std::size_t i) {
     const auto& [position, normal] = links_.places[i];
-    const Vec3f way = position - lamp_.position;
+    const Vec3f way = position - lamp.position;
     const float facing = -dot(normal, way), away2 = dot(way, way);
-    if (facing <= 0 || away2 > kReach * kReach || away2 < 1e-6f) return;
+    if (facing <= 0 || away2 > LampReach::kReach * LampReach::kReach || away2 < 1e-6f) return;
     const float away = std::sqrt(away2);
-    if (away > distance_towards(way) * (1 + kSlack) + kNear) return;
-    const float kept = kept_at(away) * quick::exp(-extinction_ * away) * facing / (away * portable::kPiF);
-    const Vec3f light = multiply(links_.albedos[i], lamp_.illuminance(lamp_.position, position)) * kept;
+    if (!reach_->shines_on(way, away)) return;
+    const float kept = LampReach::kept_at(away) * quick::exp(-extinction_ * away) * facing / (away * portable::kPiF);
+    const Vec3f light = multiply(links_.albedos[i], lamp.illuminance(lamp.position, position)) * kept;
     radiance_[i].c = AirTransfer::Four{light.x, light.y, light.z, 0};
   });
 }
@@ -252,7 +193,7 @@ float LampBounce::share_again() const {
 }
 
 void LampBounce::pass_on() {
-  const auto kept = [&](std::size_t i) { return kept_at(distance(links_.places[i].position, lamp_.position)); };
+  const auto kept = [&](std::size_t i) { return LampReach::kept_at(distance(links_.places[i].position, reach_->lamp().position)); };
   mark_lit();
   for_seen([&](std::size_t i) { once_[i] = kept(i) > 0 ? gather_colour(i) : Vec3f(); });
   const float scale = 1 / (portable::kPiF * (1 - share_again()));
@@ -307,14 +248,9 @@ void LampBounce::change_base(const LightTable& base, std::uint64_t version,
               out_.begin() + std::ptrdiff_t(range.begin));
 }
 
-void LampBounce::set_lamp(const PlacedLamp& lamp, float extinction) {
-  lamp_ = lamp, extinction_ = extinction;
-  cast_map(lamp.position);
+void LampBounce::set_lamp(const LampReach& reach) {
+  reach_ = &reach, extinction_ = reach.extinction();
   light_points();
-}
-
-float LampBounce::open_share() const {
-  return float(std::count(map_.begin(), map_.end(), kReach)) / float(map_.size());
 }
 
 // What arrives at a point is a mean of what points send, and they send what they got from the lamp, and again.
@@ -336,12 +272,7 @@ const LightTable& LampBounce::add_to(const LightTable& base, std::uint64_t versi
   find_shown(shown);
   add_shown_to_changed();
   pass_on();
-  if (fog)
-    fog->set_lamp(lamp_, radiance_, [&](const Vec3f& p) {
-      const Vec3f way = p - lamp_.position;
-      const float away = norm(way);
-      return away < 1e-3f || away < distance_towards(way) * (1 + kSlack) + kNear;
-    });
+  if (fog) fog->set_lamp(*reach_, radiance_);
   pool_.run(int(shown_nodes_.size()), 256, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) add_to_node(shown_nodes_[std::size_t(k)], base, fog);
   });

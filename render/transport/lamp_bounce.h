@@ -1,7 +1,6 @@
 // The light of the camera's lamp by way of surfaces, found anew for each place of the lamp.
 //
-// From the lamp a map of distances is cast in all directions, which says which points of the bake it
-// lights. Their light goes on over the points' links, which the bake has kept (direct-to-indirect
+// The map of LampReach says which points of the bake the lamp lights. Their light goes on over the points' links, which the bake has kept (direct-to-indirect
 // transfer: Hasan et al. 2006), to the pieces that the lamp may see: once, and a second time together with
 // the first, whose share stands for all further times. The second time is done for the triangles alone that
 // the picture shows. So its cost goes with what is about the lamp and with what shows, and its noise lies
@@ -12,10 +11,9 @@
 #include <vector>
 
 #include "kernel/base/parallel.h"
-#include "render/geometry/scene_rays.h"
 #include "render/lighting/bake.h"
 #include "render/transport/fog_light.h"
-#include "render/transport/scene_lights.h"
+#include "render/transport/lamp_reach.h"
 
 namespace rubble {
 
@@ -24,17 +22,15 @@ class LampBounce {
   // The scene, the bake of the links and the pool must outlive it. links: of what rests there; what moves gets nothing.
   // first_point: of each placed mesh in turn, in the links; kNoPoints: it is not among them.
   static constexpr std::uint32_t kNoPoints = 0xffffffffu;
-  LampBounce(const PreparedScene& scene, SceneRays& rays, const BakeLinks& links, std::vector<std::uint32_t> first_point,
+  LampBounce(const PreparedScene& scene, const BakeLinks& links, const std::vector<std::uint32_t>& first_point,
              ThreadPool& pool);
 
   struct Shown {
     std::uint32_t placed;    // which placed mesh
     std::uint32_t triangle;  // of its prepared mesh
   };
-  // Finds which points the lamp lights. extinction: of the air about it; unit: 1/m
-  void set_lamp(const PlacedLamp& lamp, float extinction);
-  // The share of directions in which nothing lies within reach of the lamp.
-  float open_share() const;
+  // Finds which points the lamp lights. reach: stays as it is until the next call.
+  void set_lamp(const LampReach& reach);
   // No flat white surface sends more of this lamp's indirect light: radiance, in the colour that there is most of.
   float most_radiance() const;
   // `base`, and that light at the nodes of the triangles that show, in any order, some perhaps more than
@@ -57,9 +53,6 @@ class LampBounce {
     std::uint32_t placed, node;  // of its mesh
   };
 
-  void cast_map(const Vec3f& from);
-  float distance_towards(const Vec3f& direction) const;
-  bool may_see(const PlacedMesh& piece) const;
   void light_points();
   void restore(const LightTable& base, std::uint64_t version);
   void find_shown(const std::vector<Shown>& shown);
@@ -80,11 +73,9 @@ class LampBounce {
   BakeLinks links_;
   std::vector<std::uint32_t> first_point_;
   ThreadPool& pool_;
-  SceneRays& rays_;
-  PlacedLamp lamp_;
-  float extinction_ = 0;                  // of the air about it; unit: 1/m
+  const LampReach* reach_ = nullptr;
+  float extinction_ = 0;                  // of the air about the lamp; unit: 1/m
   std::uint64_t version_ = 0;             // of the base that out_ is made of; 0: none
-  std::vector<float> map_;                // distances by direction, see distance_towards(); unit: m
   std::vector<std::uint64_t> lit_;        // a bit for each point that is, for gather_colour()
   std::vector<std::uint32_t> seen_;       // placed meshes that the lamp may see
   std::vector<std::uint8_t> is_seen_;     // of each placed mesh

@@ -105,7 +105,7 @@ FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surface
   const Air air = scene_.air_at(view.stamp_ns);
   const FogLight* fog = scene_.fog_light();
   const LitAir lit{scene_.air_light(), scene_.resting_light, fog ? &fog->field() : nullptr,
-                   air_box(scene_.scene.bounds)};
+                   air_box(scene_.scene.bounds), scene_.lamp_fog_on_device()};
   air_volume_.prepare(view, air, lit, &glow, drops_drawn, farthest_in_air(view, surfaces.depth_behind(), scene_.pool));
   light.air = &air_volume_;
   const double turned = air.turned_share(air.fog_asymmetry());
@@ -140,7 +140,7 @@ void ColourDrawer::light_shown(DrawnSurfaces& surfaces) {
 
 void ColourDrawer::set_bounce(bool shows, DrawnSurfaces& surfaces) {
   if (shows)
-    scene_.add_bounce(surfaces.shown());
+    scene_.add_bounce([&] { return surfaces.shown(); });
   else
     scene_.leave_bounce_out();
 }

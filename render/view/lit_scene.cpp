@@ -190,16 +190,22 @@ void LitScene::place_carried_lights() {
   }
 }
 
-LampBounce& LitScene::lamp_bounce() {
-  if (lamp_bounce_) return *lamp_bounce_;
-  std::vector<std::uint32_t> first_point;
-  std::uint32_t next = 0;
-  for (const PlacedMesh& piece : scene.placed) {
-    first_point.push_back(piece.moves ? LampBounce::kNoPoints : next);
-    if (!piece.moves) next += std::uint32_t(scene.meshes[piece.mesh].bake_points.size());
+void LitScene::aim_at(const PlacedLamp& lamp, float extinction) {
+  if (!lamp_reach_) {
+    std::vector<std::uint32_t> first_point;
+    std::vector<std::uint8_t> counted;
+    std::uint32_t next = 0;
+    for (const PlacedMesh& piece : scene.placed) {
+      first_point.push_back(piece.moves ? LampBounce::kNoPoints : next);
+      if (!piece.moves) next += std::uint32_t(scene.meshes[piece.mesh].bake_points.size());
+      counted.push_back(!piece.moves);
+    }
+    lamp_reach_ = std::make_unique<LampReach>(scene, rays, std::move(counted), pool);
+    device_lamp_ = on_device->lamp(bake_->links(), first_point);
+    if (!device_lamp_) lamp_bounce_ = std::make_unique<LampBounce>(scene, bake_->links(), first_point, pool);
   }
-  lamp_bounce_ = std::make_unique<LampBounce>(scene, rays, bake_->links(), std::move(first_point), pool);
-  return *lamp_bounce_;
+  lamp_reach_->aim(lamp, extinction);
+  if (lamp_bounce_) lamp_bounce_->set_lamp(*lamp_reach_);
 }
 
 bool LitScene::aim_lamp(const Pose& bearer, std::int64_t stamp_ns) {
@@ -212,7 +218,7 @@ bool LitScene::aim_lamp(const Pose& bearer, std::int64_t stamp_ns) {
     const Air air = air_at(stamp_ns);
     const Vec3 place(placed.position);
     const double turned = in_box(air_box(scene.bounds), place) ? air.turned_share(air.fog_asymmetry()) : 1;
-    lamp_bounce().set_lamp(placed, air.clear() ? 0 : float(air.extinction(place) * turned));
+    aim_at(placed, air.clear() ? 0 : float(air.extinction(place) * turned));
     // By day nobody sees what air scatters twice of a lamp: finding it takes a third of the time of an image.
     const double glow = lamp.intensity_cd * 1e-3 / (kGlowDistance * kGlowDistance);
     if (fog && glow >= kDrowned * fog->daylight(placed.position)) lamp_fog_ = fog;
@@ -221,19 +227,22 @@ bool LitScene::aim_lamp(const Pose& bearer, std::int64_t stamp_ns) {
   return lit;
 }
 
+// A device is not asked: it would have to be waited for.
 bool LitScene::bounce_shows(float exposure) const {
-  return lamp_fog_ || light_shows(frame_light, lamp_bounce_->most_radiance(), exposure);
+  return device_lamp_ || lamp_fog_ || light_shows(frame_light, lamp_bounce_->most_radiance(), exposure);
 }
 
-bool LitScene::lamp_is_in_the_open() const { return !lamp_fog_ && lamp_bounce_->open_share() > kOpen; }
+bool LitScene::lamp_is_in_the_open() const { return lamp_bounce_ && !lamp_fog_ && lamp_reach_->open_share() > kOpen; }
 
-void LitScene::add_bounce(const std::vector<LampBounce::Shown>& shown) {
+void LitScene::add_bounce(const std::function<std::vector<LampBounce::Shown>()>& shown) {
+  if (device_lamp_) return device_lamp_->light(*lamp_reach_, lamp_fog_);
   // What was shown before is these nodes, or what was lit the time before.
-  show_light(lamp_bounce_->add_to(nodes(), light_version_, shown, lamp_fog_), &lamp_bounce_->changed());
+  show_light(lamp_bounce_->add_to(nodes(), light_version_, shown(), lamp_fog_), &lamp_bounce_->changed());
   lit_by_lamp_ = true;
 }
 
 void LitScene::leave_bounce_out() {
+  if (device_lamp_) return device_lamp_->put_out();
   if (lit_by_lamp_) show_light(nodes(), &lamp_bounce_->changed());
   lit_by_lamp_ = false;
 }

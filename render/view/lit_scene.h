@@ -64,8 +64,10 @@ struct LitScene {
   // Since aim_lamp(): whether an image at that exposure may show that light, and whether it is worth asking.
   bool bounce_shows(float exposure) const;
   bool lamp_is_in_the_open() const;
-  // Adds that light to the baked one, on the triangles that show, and to the fog.
-  void add_bounce(const std::vector<LampBounce::Shown>& shown);
+  // Adds that light to the baked one, on the triangles that show, and to the fog. shown: asked where the processor adds it.
+  void add_bounce(const std::function<std::vector<LampBounce::Shown>()>& shown);
+  // The device finds the lamp's light in the air itself.
+  bool lamp_fog_on_device() const { return device_lamp_ && lamp_fog_; }
   void leave_bounce_out();
   // The medium at that stamp.
   Air air_at(std::int64_t stamp_ns) const;
@@ -90,7 +92,7 @@ struct LitScene {
   void place_carried_lights();
   void bake(double wetness, const std::function<void(double)>& progress);
   std::vector<std::uint32_t> lit_pieces() const;
-  LampBounce& lamp_bounce();
+  void aim_at(const PlacedLamp& lamp, float extinction);
   const LightTable& resting_nodes() const { return bake_ ? bake_->nodes() : open_sky_.nodes; }
   const LightTable& clear_nodes() const { return live_light ? live_light->light() : resting_nodes(); }
   const LightTable& nodes() { return fog_light() ? weakened_nodes_ : clear_nodes(); }
@@ -106,7 +108,10 @@ struct LitScene {
   LightTable weakened_nodes_;   // by the fog
   std::unique_ptr<FogLight> fog_light_;      // made when there is first fog
   bool air_changed_ = false, surfaces_changed_ = false;  // since light_air()
-  std::unique_ptr<LampBounce> lamp_bounce_;  // made when a lamp is first lit
+  // Made when a lamp is first lit; one of the latter two is null.
+  std::unique_ptr<LampReach> lamp_reach_;
+  std::unique_ptr<LampBounce> lamp_bounce_;
+  DeviceLamp* device_lamp_ = nullptr;
   std::uint64_t light_version_ = 1;          // of nodes()
   bool lit_by_lamp_ = false;                 // the light on the device is the lamp's too
   FogLight* lamp_fog_ = nullptr;             // the fog that shows the lamp's light; null: none does

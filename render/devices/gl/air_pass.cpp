@@ -49,6 +49,7 @@ AirPass::AirPass(const Gl& gl)
       lamp_terms_(gl),
       seen_(gl),
       stand_in_(gl),
+      lamp_stand_in_(gl),
       around_(gl),
       table_(make_table(gl)) {}
 
@@ -63,7 +64,8 @@ const GlProgram& AirPass::program(bool around, bool rays) {
   return wanted;
 }
 
-void AirPass::give_field(const RadianceGrid& field) {
+// lamp_is_there: on the card, by itself.
+void AirPass::give_field(const RadianceGrid& field, bool lamp_is_there) {
   FieldBlock block;
   for (int i = 0; i < 3; ++i) {
     block.origin[i] = field.grid.origin[i], block.cell[i] = field.grid.cell[i];
@@ -72,14 +74,15 @@ void AirPass::give_field(const RadianceGrid& field) {
   block.size[3] = field.seen.cuts;
   for (std::size_t t = 0; t < kHarmonics; ++t)
     for (int c = 0; c < 3; ++c) block.open[t][c] = field.open[t][c];
-  block.has_lamp = field.of_lamp.empty() ? 0 : 1, block.has_seen = field.seen.seen.empty() ? 0 : 1;
-  block.has_stand_in = field.stand_in.empty() ? 0 : 1, block.has_lamp_stand_in = field.lamp_stand_in.empty() ? 0 : 1;
+  block.has_lamp = lamp_is_there || !field.of_lamp.empty(), block.has_seen = field.seen.seen.empty() ? 0 : 1;
+  block.has_stand_in = field.stand_in.empty() ? 0 : 1;
+  block.has_lamp_stand_in = lamp_is_there || !field.lamp_stand_in.empty();
+  block.has_lamp_ends = lamp_is_there || !field.ends_of_lamp.empty();
+  field_.give(&block, sizeof block);
   static_assert(sizeof(RadianceTerms) == kHarmonics * 3 * sizeof(float));
   terms_.give(field.terms);
   std::vector<RadianceTerms> of_lamp = field.of_lamp;
   if (!of_lamp.empty()) of_lamp.insert(of_lamp.end(), field.ends_of_lamp.begin(), field.ends_of_lamp.end());
-  block.has_lamp_ends = of_lamp.size() > field.of_lamp.size() ? 1 : 0;
-  field_.give(&block, sizeof block);
   lamp_terms_.give(of_lamp);
   if (!terms_view_) {
     terms_view_ = make_buffer_texture(gl_, terms_.buffer(), GL_RGB32F);
@@ -88,13 +91,12 @@ void AirPass::give_field(const RadianceGrid& field) {
   std::vector<std::uint8_t> seen = field.seen.seen;  // whole words
   seen.resize((seen.size() + 3) / 4 * 4);
   seen_.give(seen);
-  std::vector<std::uint32_t> stand_in = field.stand_in;
-  stand_in.resize(field.grid.count());
-  stand_in.insert(stand_in.end(), field.lamp_stand_in.begin(), field.lamp_stand_in.end());
-  stand_in_.give(stand_in);
+  stand_in_.give(field.stand_in);
+  lamp_stand_in_.give(field.lamp_stand_in);
 }
 
-void AirPass::trace(const AirVolume& air, const GlBuffer& frame, const GlTexture* lens_rays, const GlTexture* row_poses) {
+void AirPass::trace(const AirVolume& air, const GlBuffer& frame, const LampFogPass* lamp, const GlTexture* lens_rays,
+                    const GlTexture* row_poses) {
   if (air.version() == traced_) return;
   traced_ = air.version();
   const AirTraceData& data = air.data();
@@ -119,9 +121,10 @@ void AirPass::trace(const AirVolume& air, const GlBuffer& frame, const GlTexture
   };
   bind({block_.name(), wanted_.name()}, 0);
   if (air.field()) {
-    give_field(*air.field());
-    bind({field_.name(), seen_.name(), stand_in_.name(), around_.name()}, 2);
-    gl_.BindTextureUnit(2, terms_view_.name()), gl_.BindTextureUnit(3, lamp_terms_view_.name());
+    give_field(*air.field(), lamp != nullptr);
+    bind({field_.name(), seen_.name(), stand_in_.name(), around_.name(),
+          lamp ? lamp->stand_in_buffer().name() : lamp_stand_in_.name()}, 2);
+    gl_.BindTextureUnit(2, terms_view_.name()), gl_.BindTextureUnit(3, (lamp ? lamp->terms() : lamp_terms_view_).name());
     gl_.UseProgram(program(true, rays).name());
     gl_.DispatchCompute(groups(data.around_columns), groups(data.around_rows), GLuint(data.slices - 1));
     gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

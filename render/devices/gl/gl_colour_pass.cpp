@@ -131,12 +131,13 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
 }  // namespace
 
 GlColourPass::GlColourPass(const Gl& gl, const GlGeometry& geometry, const GlRaster& raster,
-                           const GlShadowPass& shadows, const FrameLight& light, const GroundMap& ground,
-                           const std::vector<PatternImage>& patterns, ThreadPool& pool)
+                           const GlShadowPass& shadows, const std::unique_ptr<LampPass>& lit_by, const FrameLight& light,
+                           const GroundMap& ground, const std::vector<PatternImage>& patterns, ThreadPool& pool)
     : gl_(gl),
       geometry_(geometry),
       raster_(raster),
       shadows_(shadows),
+      lamp_(lit_by),
       pool_(pool),
       frame_block_(gl),
       empty_array_(gl),
@@ -221,15 +222,19 @@ void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const Vie
     gl_.DispatchCompute(1, 1, 1);
     gl_.MemoryBarrier(GL_UNIFORM_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   }
+  const bool bounces = lamp_ && lamp_->is_lit();
+  if (bounces) lamp_->find(frame_block_);
+  if (anew) nodes_ = bounces ? &lamp_->light_of(ids, view.intrinsics.width, view.intrinsics.height) : &geometry_.light_view;
   if (light.air)
-    air_.trace(*light.air, frame_block_, surfaces.has_rays() ? &lens_rays_ : nullptr, surfaces.has_rays() ? &row_poses_ : nullptr);
+    air_.trace(*light.air, frame_block_, bounces ? lamp_->fog() : nullptr, surfaces.has_rays() ? &lens_rays_ : nullptr,
+               surfaces.has_rays() ? &row_poses_ : nullptr);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
   const GLuint textures[] = {ids.name(),
                              depth.name(),
                              geometry_.vertices_view.name(),
                              geometry_.triangles_view.name(),
                              geometry_.placed_view.name(),
-                             geometry_.light_view.name(),
+                             nodes_->name(),
                              looks_.name(),
                              shadows_.depth().name(),
                              contact_.openness().name(),

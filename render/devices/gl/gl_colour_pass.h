@@ -11,6 +11,7 @@
 #include "render/devices/gl/gl_raster.h"
 #include "render/devices/gl/gl_shadow_pass.h"
 #include "render/devices/gl/image_tiles.h"
+#include "render/devices/gl/lamp_pass.h"
 #include "render/devices/gl/sun_shadow_pass.h"
 #include "render/geometry/ground_map.h"
 #include "render/gl/gl_exchange.h"
@@ -21,9 +22,9 @@ namespace rubble {
 
 class GlColourPass : public ColourPass {
  public:
-  // What they refer to must outlive it.
+  // What they refer to must outlive it. lamp: null as long as no lamp was lit.
   GlColourPass(const Gl& gl, const GlGeometry& geometry, const GlRaster& raster, const GlShadowPass& shadows,
-               const FrameLight& light, const GroundMap& ground, const std::vector<PatternImage>& patterns,
+               const std::unique_ptr<LampPass>& lamp, const FrameLight& light, const GroundMap& ground, const std::vector<PatternImage>& patterns,
                ThreadPool& pool);
 
   float meter(const ViewProjection& view, const Pose& world_from_camera,
@@ -55,6 +56,7 @@ class GlColourPass : public ColourPass {
   const GlGeometry& geometry_;
   const GlRaster& raster_;
   const GlShadowPass& shadows_;
+  const std::unique_ptr<LampPass>& lamp_;
   ThreadPool& pool_;
   enum Variant { kLinear = 1, kRays = 2, kLamp = 4, kMeter = 8, kSoftSun = 16, kBehind = 32 };
   const GlProgram& program(int variant, TileContent content);  // made when it is first needed
@@ -78,6 +80,7 @@ class GlColourPass : public ColourPass {
   std::uint64_t lens_ = 0;                         // of lens_rays_
   const GroundMap& ground_;
   ImageTiles tiles_;  // of what was drawn last
+  const GlTexture* nodes_ = nullptr;  // light for that
   std::vector<Behind> behind_;  // the outermost first
   const GlTexture* shown_behind_ = nullptr;  // by what is drawn next; null: nothing
   GlTexture colour_, metered_;

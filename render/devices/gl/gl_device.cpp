@@ -3,6 +3,7 @@
 #include "render/devices/gl/gl_colour_pass.h"
 #include "render/devices/gl/gl_raster.h"
 #include "render/devices/gl/gl_shadow_pass.h"
+#include "render/devices/gl/lamp_pass.h"
 #include "render/gl/gl.h"
 
 namespace rubble {
@@ -32,9 +33,13 @@ class GlScene : public DeviceScene {
   void set_light(const LightTable& light, const std::vector<LightRange>* changed) override {
     geometry_.set_light(light, changed);
   }
+  DeviceLamp* lamp(const BakeLinks& links, const std::vector<std::uint32_t>& first_point) override {
+    if (!lamp_) lamp_ = std::make_unique<LampPass>(context_.gl(), scene_, geometry_, links, first_point);
+    return lamp_.get();
+  }
   std::unique_ptr<ColourPass> make_colour_pass(const FrameLight& light, const GroundMap& ground,
                                                const std::vector<PatternImage>& patterns) override {
-    return std::make_unique<GlColourPass>(context_.gl(), geometry_, raster_, *shadows_, light, ground, patterns, pool_);
+    return std::make_unique<GlColourPass>(context_.gl(), geometry_, raster_, *shadows_, lamp_, light, ground, patterns, pool_);
   }
 
  private:
@@ -44,6 +49,7 @@ class GlScene : public DeviceScene {
   GlGeometry geometry_;
   GlRaster raster_;
   std::unique_ptr<GlShadowPass> shadows_;  // null: colours are not asked for
+  std::unique_ptr<LampPass> lamp_;         // null: no lamp was lit
 };
 
 }  // namespace

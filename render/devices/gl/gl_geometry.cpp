@@ -63,6 +63,7 @@ void GlGeometry::place(const PreparedScene& scene) {
 }
 
 void GlGeometry::set_light(const LightTable& from, const std::vector<LightRange>* changed) {
+  ++light_version;
   if (!changed || light.size() != from.size() * sizeof(BakedLight)) {
     light.give(from);
   } else {

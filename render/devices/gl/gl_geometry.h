@@ -25,6 +25,7 @@ struct GlGeometry {
   SceneTables tables;  // without those that are on the card
   GlBuffer vertices, indices, triangles, placed;
   GlMirror light;
+  std::uint64_t light_version = 1;  // another number whenever the light has changed
   GlTexture vertices_view, triangles_view, placed_view, light_view;
   // See shaders/paint.glsl; nothing where nothing is painted.
   GlBuffer paint;

@@ -15,9 +15,10 @@ namespace rubble {
 
 // Which triangle each pixel shows, and how far it is.
 struct SurfaceImages {
-  const std::uint32_t* ids;                // as TriangleRaster::ids(); null with in_raster alone
-  const std::vector<float>& depth_values;  // near / Z
-  bool in_raster = false;                  // both lie in the raster of the device, too
+  // As TriangleRaster has them: near / Z. Null with in_raster alone.
+  const std::uint32_t* ids;
+  const std::vector<float>* depth_values;
+  bool in_raster = false;  // both lie in the raster of the device, too
   // Of an image whose pixels have rays of their own, as RayPass has them; null: a pinhole.
   const float* ray_values = nullptr;   // four a pixel
   const float* pose_values = nullptr;  // twelve a row of pixels

@@ -42,6 +42,7 @@ namespace rubble {
   X(DispatchCompute, DISPATCHCOMPUTE)                           \
   X(DispatchComputeIndirect, DISPATCHCOMPUTEINDIRECT)           \
   X(DrawArrays, DRAWARRAYS)                                     \
+  X(DrawArraysIndirect, DRAWARRAYSINDIRECT)                     \
   X(Enable, ENABLE)                                             \
   X(EnableVertexArrayAttrib, ENABLEVERTEXARRAYATTRIB)           \
   X(Finish, FINISH)                                             \
@@ -73,6 +74,8 @@ namespace rubble {
   X(NamedFramebufferTextureLayer, NAMEDFRAMEBUFFERTEXTURELAYER) \
   X(PixelStorei, PIXELSTOREI)                                   \
   X(ProgramUniform1i, PROGRAMUNIFORM1I)                         \
+  X(ProgramUniform2i, PROGRAMUNIFORM2I)                         \
+  X(ProgramUniform4i, PROGRAMUNIFORM4I)                         \
   X(ReadPixels, READPIXELS)                                     \
   X(Scissor, SCISSOR)                                           \
   X(ShaderSource, SHADERSOURCE)                                 \

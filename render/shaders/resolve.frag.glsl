@@ -4,8 +4,8 @@
 // out, no tone mapping); SOFT_SUN where sun_shadow.frag.glsl has drawn; PAINTS, PAINTED and
 // PAINT_SIDE where meshes have colours of their own; GLOW where a look
 // shines; GLASS, the look that is clear, where a mesh has it, and BEHIND where what is behind it was drawn; SURROUNDED by a street; METER (log2 of luminance of each 4th pixel in each direction, for the
-// exposure; below -1000: none); RAYS (each pixel has a ray of its own); CONTENT 0 sky, 1 surfaces no farther
-// than VEIL_FROM, 2 surfaces, 3 both.
+// exposure; below -1000: none); RAYS (each pixel has a ray of its own). VEIL_FROM:
+// where clean air begins to veil what is seen, m.
 #include "frame.glsl"
 #include "geometry.glsl"
 #include "surface_words.glsl"
@@ -117,13 +117,7 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
 #endif
   uvec2 seen = texelFetch(visibility, pixel, 0).xy;
-#if CONTENT == 0
-  const bool surface = false;
-#elif CONTENT == 3
   bool surface = seen.x != 0u;
-#else
-  const bool surface = true;
-#endif
 #ifdef RAYS
   // Any lens, and for each row the pose at its own time; see passes/ray_pass.h.
   vec3 slope = texelFetch(lens_rays, pixel, 0).xyz;
@@ -176,7 +170,6 @@ void main() {
 #ifdef GLOW
     radiance += s.layers.glow;
 #endif
-#if CONTENT != 1
     // Clean air veils what is far: the horizon has no edge.
     float there = max(far - VEIL_FROM, 0.0);
 #ifdef SURROUNDED
@@ -188,7 +181,6 @@ void main() {
     radiance = mix(veiling, radiance, veil);
 #ifdef BEHIND
     before = veiling * (1.0 - veil);
-#endif
 #endif
   }
 #ifdef AIR

@@ -106,7 +106,10 @@ FrameLight ColourDrawer::light_view(const ViewRays& view, DrawnSurfaces& surface
   const FogLight* fog = scene_.fog_light();
   const LitAir lit{scene_.air_light(), scene_.resting_light, fog ? &fog->field() : nullptr,
                    air_box(scene_.scene.bounds), scene_.lamp_fog_on_device()};
-  air_volume_.prepare(view, air, lit, &glow, drops_drawn, farthest_in_air(view, surfaces.depth_behind(), scene_.pool));
+  // Where the device has the depth alone, it finds that itself.
+  std::vector<float> farthest;
+  if (!surfaces.on_device_alone() || scene_.scene.glass) farthest = farthest_in_air(view, surfaces.depth_behind(), scene_.pool);
+  air_volume_.prepare(view, air, lit, &glow, drops_drawn, farthest);
   light.air = &air_volume_;
   const double turned = air.turned_share(air.fog_asymmetry());
   light.fog = {air.fog({}) * turned, air.fog_height(),

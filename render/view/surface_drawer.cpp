@@ -123,7 +123,7 @@ const std::uint32_t* DrawnSurfaces::ids_in_place() {
 
 SurfaceImages DrawnSurfaces::front_images() {
   if (!view_.plain() && !in_pass()) draw();
-  SurfaceImages out{ids_in_place(), depth_values(), in_raster()};
+  SurfaceImages out{ids_in_place(), on_device_alone() ? nullptr : &depth_values(), in_raster()};
   if (view_.plain()) return out;
   const RayPass& rays = *drawer_.rays_;
   out.ray_values = rays.ray_values().data(), out.pose_values = rays.pose_values().data(), out.lens = rays.lens();

@@ -53,6 +53,8 @@ class DrawnSurfaces {
   std::vector<LampBounce::Shown> shown();              // the triangles in images(), some more than once
   // The placed meshes in images(), each once, in order; nothing: that is known on the device alone.
   std::optional<std::vector<std::uint32_t>> shown_pieces();
+  // A device has them, and to read them back waits for it.
+  bool on_device_alone() const { return in_raster() && !drawer_.raster_.ids(); }
   const std::vector<float>& depth_values();           // near / Z; as RayPass has them for rays
   const std::vector<float>& planar_depth();           // NaN: nothing; unit: m
   const std::vector<float>& distances();              // along the rays; NaN: nothing; unit: m

@@ -67,7 +67,7 @@ class Surroundings {
     const GlBuffer frame(gl);
     give_buffer(gl, frame.name(), sizeof block, &block, GL_STREAM_DRAW);
     if (view.plain()) {
-      card.trace(volume, frame, nullptr, nullptr, nullptr);
+      card.trace(volume, frame, {});
     } else {
       std::vector<float> slopes, poses;
       for (int v = 0; v < k.height; ++v) {
@@ -83,7 +83,7 @@ class Surroundings {
       const GlTexture lens_rays = make_target(gl, GL_RGBA32F, k.width, k.height), row_poses = make_target(gl, GL_RGBA32F, 3, k.height);
       give_image(gl, lens_rays.name(), 0, {0, 0, 0, k.width, k.height}, GL_RGBA, GL_FLOAT, slopes.data());
       give_image(gl, row_poses.name(), 0, {0, 0, 0, 3, k.height}, GL_RGBA, GL_FLOAT, poses.data());
-      card.trace(volume, frame, nullptr, &lens_rays, &row_poses);
+      card.trace(volume, frame, {nullptr, nullptr, &lens_rays, &row_poses});
     }
     std::vector<float> found(expected.size() * 4);
     take_image(gl, card.table().name(), GL_RGBA, GL_FLOAT, found.size() * sizeof(float), found.data());

@@ -189,7 +189,7 @@ TEST(Shader, ACompileErrorNamesItsFileAndLine) {
     FAIL() << "compiled";
   } catch (const RunError& error) {
     const std::string text = error.what();
-    EXPECT_NE(text.find("geometry.glsl:"), std::string::npos) << text;
+    EXPECT_NE(text.find("packing.glsl:"), std::string::npos) << text;
   }
 }
 

@@ -1,6 +1,7 @@
 #include "render/devices/gl/air_pass.h"
 
 #include <algorithm>
+#include <string>
 
 #include "render/gl/shader.h"
 
@@ -51,6 +52,8 @@ AirPass::AirPass(const Gl& gl)
       stand_in_(gl),
       lamp_stand_in_(gl),
       around_(gl),
+      least_(gl),
+      found_wanted_(gl),
       table_(make_table(gl)) {}
 
 const GlProgram& AirPass::program(bool around, bool rays) {
@@ -95,13 +98,37 @@ void AirPass::give_field(const RadianceGrid& field, bool lamp_is_there) {
   lamp_stand_in_.give(field.lamp_stand_in);
 }
 
-void AirPass::trace(const AirVolume& air, const GlBuffer& frame, const LampFogPass* lamp, const GlTexture* lens_rays,
-                    const GlTexture* row_poses) {
+void AirPass::find_wanted(const GlTexture& depth) {
+  const ShaderDefines table{{"COLUMNS", std::to_string(AirVolume::kColumns)},
+                            {"ROWS", std::to_string(AirVolume::kRows)},
+                            {"SLICES", std::to_string(AirVolume::kSlices)},
+                            {"FARTHEST", std::to_string(AirVolume::kFarthest)}};
+  for (int last = 0; last < 2; ++last) {
+    GlProgram& program = wanted_programs_[last];
+    if (!program) {
+      ShaderDefines defines = table;
+      if (!last) defines.push_back({"LEAST", ""});
+      program = make_compute_program(gl_, "air_wanted.comp.glsl", defines);
+      bind_samplers(gl_, program, {{"depth_values", 0}});
+      gl_.UniformBlockBinding(program.name(), gl_.GetUniformBlockIndex(program.name(), "Frame"), 0);
+      for (const GlBuffer* buffer : {&least_, &found_wanted_})
+        give_buffer(gl_, buffer->name(), kRays * 4, nullptr, GL_DYNAMIC_COPY);
+    }
+    gl_.BindTextureUnit(0, depth.name());
+    gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, least_.name());
+    gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, found_wanted_.name());
+    gl_.UseProgram(program.name());
+    gl_.DispatchCompute(groups(AirVolume::kColumns), groups(AirVolume::kRows), 1);
+    gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+}
+
+void AirPass::trace(const AirVolume& air, const GlBuffer& frame, const Known& known) {
   if (air.version() == traced_) return;
   traced_ = air.version();
   const AirTraceData& data = air.data();
   block_.give(static_cast<const AirBlock*>(&data), sizeof(AirBlock));
-  wanted_.give(data.wanted, kRays * sizeof *data.wanted);
+  if (!known.depth) wanted_.give(data.wanted, kRays * sizeof *data.wanted);
   if (data.billows > 0 && noise_of_ != data.noise) {
     noise_of_ = data.noise;
     noise_.give(data.noise, std::size_t(data.noise_side) * std::size_t(data.noise_side) * std::size_t(data.noise_side) * sizeof(float));
@@ -114,12 +141,14 @@ void AirPass::trace(const AirVolume& air, const GlBuffer& frame, const LampFogPa
   const std::size_t entries = std::size_t(data.around_columns) * std::size_t(data.around_rows) * std::size_t(data.slices);
   gl_.NamedBufferData(around_.name(), GLsizeiptr(std::max<std::size_t>(entries * 6 * 16, 16)), nullptr, GL_DYNAMIC_COPY);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame.name());
-  const bool rays = lens_rays && row_poses;
-  if (rays) gl_.BindTextureUnit(0, lens_rays->name()), gl_.BindTextureUnit(1, row_poses->name());
+  if (known.depth) find_wanted(*known.depth);
+  const bool rays = known.lens_rays && known.row_poses;
+  if (rays) gl_.BindTextureUnit(0, known.lens_rays->name()), gl_.BindTextureUnit(1, known.row_poses->name());
+  const LampFogPass* lamp = known.lamp;
   const auto bind = [&](std::initializer_list<GLuint> buffers, GLuint first) {
     for (const GLuint buffer : buffers) gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, first++, buffer);
   };
-  bind({block_.name(), wanted_.name()}, 0);
+  bind({block_.name(), known.depth ? found_wanted_.name() : wanted_.name()}, 0);
   if (air.field()) {
     give_field(*air.field(), lamp != nullptr);
     bind({field_.name(), seen_.name(), stand_in_.name(), around_.name(),

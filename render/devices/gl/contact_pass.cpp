@@ -33,8 +33,7 @@ void ContactPass::resize(int width, int height) {
   check_gl(gl_, "making the contact buffer");
 }
 
-void ContactPass::draw(const ViewProjection& view, const GlTexture& depth, const ContactLamp& lamp,
-                       int first_row, int last_row) {
+void ContactPass::draw(const ViewProjection& view, const GlTexture& depth, const ContactLamp& lamp) {
   const Intrinsics& k = view.intrinsics;
   resize(std::max(1, (k.width + 1) / 2), std::max(1, (k.height + 1) / 2));
   const float block[12] = {float(k.fx),  float(k.fy),  float(k.cx),  float(k.cy), lamp.place.x, lamp.place.y,
@@ -45,20 +44,14 @@ void ContactPass::draw(const ViewProjection& view, const GlTexture& depth, const
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_CULL_FACE);
   gl_.BindVertexArray(empty_array_.name());
-  gl_.Enable(GL_SCISSOR_TEST);
-  const auto run = [&](const GlProgram& program, const GlTexture& source,
-                       const GlFramebuffer& target, int margin) {
-    const int first = std::max(0, first_row / 2 - margin);
-    gl_.Scissor(0, first, width_, std::min(height_, (last_row + 1) / 2 + margin) - first);
+  const auto run = [&](const GlProgram& program, const GlTexture& source, const GlFramebuffer& target) {
     gl_.BindTextureUnit(0, source.name());
     gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
     gl_.UseProgram(program.name());
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
   };
-  // The mean takes in two texels on either side, and what reads it one more.
-  run(program_, depth, raw_target_, 4);
-  run(blur_, raw_, target_, 1);
-  gl_.Disable(GL_SCISSOR_TEST);
+  run(program_, depth, raw_target_);
+  run(blur_, raw_, target_);
 }
 
 }  // namespace rubble

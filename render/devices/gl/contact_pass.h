@@ -11,10 +11,8 @@ class ContactPass {
  public:
   explicit ContactPass(const Gl& gl);
 
-  // depth: near / Z, of the view's size. Only the rows [first_row, last_row) of the view are
-  // wanted.
-  void draw(const ViewProjection& view, const GlTexture& depth, const ContactLamp& lamp, int first_row,
-            int last_row);
+  // depth: near / Z, of the view's size.
+  void draw(const ViewProjection& view, const GlTexture& depth, const ContactLamp& lamp);
   // 1: the lamp is in sight, 0: hidden.
   const GlTexture& openness() const { return openness_; }
 

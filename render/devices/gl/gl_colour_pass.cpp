@@ -12,7 +12,6 @@
 #include "render/gl/shader.h"
 #include "render/materials/glass.h"
 #include "render/materials/surface_appearance.h"
-#include "render/passes/ray_pass.h"
 
 namespace rubble {
 
@@ -170,8 +169,8 @@ GlColourPass::GlColourPass(const Gl& gl, const GlGeometry& geometry, const GlRas
                                            kSunBlocks);
 }
 
-const GlProgram& GlColourPass::program(int variant, TileContent content) {
-  GlProgram& wanted = programs_[variant][int(content)];
+const GlProgram& GlColourPass::program(int variant) {
+  GlProgram& wanted = programs_[variant];
   if (!wanted) {
     ShaderDefines defines = defines_;
     if (variant & kLinear) defines.push_back({"LINEAR", ""});
@@ -180,7 +179,6 @@ const GlProgram& GlColourPass::program(int variant, TileContent content) {
     if (variant & kMeter) defines.push_back({"METER", ""});
     if (variant & kSoftSun) defines.push_back({"SOFT_SUN", ""});
     if (variant & kBehind) defines.push_back({"BEHIND", ""});
-    defines.push_back({"CONTENT", std::to_string(int(content))});
     defines.push_back({"VEIL_FROM", std::to_string(kVeilFrom)});
     wanted = make_resolve_program(gl_, defines);
   }
@@ -200,18 +198,13 @@ void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const Vie
                              const Pose& world_from_camera, const SurfaceImages& surfaces,
                              const FrameLight& light, std::optional<float> exposure, bool anew,
                              const GlassLayer* layer) {
-  if (anew) tiles_ = tiles_of(view, surfaces);
-  const bool all_light = variant & (kLinear | kMeter);
   const ViewLamp place = find_view_lamp(view, world_from_camera, light);
-  const bool lamp = has_lamp(light) &&
-                    (all_light || !exposure || lamp_shows(light, place.offset, tiles_.nearest_value, *exposure));
+  const bool lamp = has_lamp(light);
   if (lamp) variant |= kLamp;
   if (anew) hand_over(view, surfaces);
   const GlTexture& ids = surfaces.in_raster ? raster_.id_texture() : ids_;
   const GlTexture& depth = surfaces.in_raster ? raster_.depth_texture() : depth_;
-  if (anew && lamp)
-    contact_.draw(view, depth, place.contact(lamp, light), tiles_.first_row,
-                  tiles_.last_row);
+  if (anew && lamp) contact_.draw(view, depth, place.contact(lamp, light));
   const FrameBlock block =
       fill_frame_block(view, light, place.bearer, ground_, texture_size_, exposure.value_or(1));
   give_buffer(gl_, frame_block_.name(), sizeof block, &block, GL_STREAM_DRAW);
@@ -225,9 +218,13 @@ void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const Vie
   const bool bounces = lamp_ && lamp_->is_lit();
   if (bounces) lamp_->find(frame_block_);
   if (anew) nodes_ = bounces ? &lamp_->light_of(ids, view.intrinsics.width, view.intrinsics.height) : &geometry_.light_view;
-  if (light.air)
-    air_.trace(*light.air, frame_block_, bounces ? lamp_->fog() : nullptr, surfaces.has_rays() ? &lens_rays_ : nullptr,
-               surfaces.has_rays() ? &row_poses_ : nullptr);
+  if (light.air) {
+    AirPass::Known known;
+    if (bounces) known.lamp = lamp_->fog();
+    if (surfaces.has_rays()) known.lens_rays = &lens_rays_, known.row_poses = &row_poses_;
+    if (!surfaces.depth_values && !surfaces.through_glass()) known.depth = &depth;
+    air_.trace(*light.air, frame_block_, known);
+  }
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
   const GLuint textures[] = {ids.name(),
                              depth.name(),
@@ -257,16 +254,21 @@ void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const Vie
     variant |= kBehind;
   }
   // What the exposure is found by needs no smooth shadows.
-  if (sun_ && light.soft_sun && !(variant & kMeter) && draw_sun(view, surfaces, light))
-    variant |= kSoftSun;
+  if (sun_ && light.soft_sun && !(variant & kMeter)) draw_sun(view, surfaces), variant |= kSoftSun;
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
-  const int every = variant & kMeter ? kMeterEvery : 1;
-  gl_.Viewport(0, 0, (view.intrinsics.width + every - 1) / every,
-               (view.intrinsics.height + every - 1) / every);
+  const int every = variant & kMeter ? kMeterEvery : 1, width = view.intrinsics.width, height = view.intrinsics.height;
+  gl_.Viewport(0, 0, (width + every - 1) / every, (height + every - 1) / every);
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_CULL_FACE);
   gl_.BindVertexArray(empty_array_.name());
-  draw_tiles(variant, tiles_, every, layer);
+  gl_.UseProgram(program(variant).name());
+  gl_.Enable(GL_SCISSOR_TEST);
+  // Of pixels `every` apart, the first at half of that: those before `end`.
+  const auto count = [every](int end) { return std::max(0, end + every - 1 - every / 2) / every; };
+  const int x0 = layer ? count(layer->x0) : 0, y0 = layer ? count(layer->y0) : 0;
+  gl_.Scissor(x0, y0, count(layer ? layer->x1 : width) - x0, count(layer ? layer->y1 : height) - y0);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl_.Disable(GL_SCISSOR_TEST);
 }
 
 // The images of the surfaces, where they are not on the card.
@@ -279,7 +281,7 @@ void GlColourPass::hand_over(const ViewProjection& view, const SurfaceImages& su
   if (!surfaces.in_raster) {
     if (!ids_) ids_ = make_target(gl_, GL_RG32UI, width, height), depth_ = make_target(gl_, GL_R32F, width, height);
     give_image(gl_, ids_.name(), 0, {0, 0, 0, width, height}, GL_RG_INTEGER, GL_UNSIGNED_INT, surfaces.ids);
-    give_image(gl_, depth_.name(), 0, {0, 0, 0, width, height}, GL_RED, GL_FLOAT, surfaces.depth_values.data());
+    give_image(gl_, depth_.name(), 0, {0, 0, 0, width, height}, GL_RED, GL_FLOAT, surfaces.depth_values->data());
   }
   if (surfaces.has_rays()) {
     if (!lens_rays_) {
@@ -308,7 +310,7 @@ void GlColourPass::draw_behind(const ViewProjection& view, const Pose& world_fro
     out.colour = make_target(gl_, GL_RGBA32F, width, height);
     out.target = GlFramebuffer(gl_);
     gl_.NamedFramebufferTexture(out.target.name(), GL_COLOR_ATTACHMENT0, out.colour.name(), 0);
-    SurfaceImages images{layer.ids.data(), layer.depth_values};
+    SurfaceImages images{layer.ids.data(), &layer.depth_values};
     images.ray_values = surfaces.ray_values, images.pose_values = surfaces.pose_values, images.lens = surfaces.lens;
     draw_with(kLinear, out.target, view, world_from_camera, images, light, 1, true, &layer);
     shown_behind_ = &out.colour;
@@ -316,51 +318,12 @@ void GlColourPass::draw_behind(const ViewProjection& view, const Pose& world_fro
   check_gl(gl_, "drawing what is behind glass");
 }
 
-// True where there are edges of its shadows.
-bool GlColourPass::draw_sun(const ViewProjection& view, const SurfaceImages& surfaces,
-                            const FrameLight& light) {
-  const Intrinsics& k = view.intrinsics;
-  const std::vector<EdgeBlock> blocks = find_edge_blocks(
-      surfaces.has_rays() ? nullptr : &view, {surfaces.depth_values, k.width, k.height},
-      light.shadow->edge_layers(shadows_.edges()->pyramids()), Vec3(light.lights->lights.front().axis) * -1.0, pool_);
-  if (blocks.empty()) return false;
-  sun_->set_blocks(blocks, k.width, k.height);
+void GlColourPass::draw_sun(const ViewProjection& view, const SurfaceImages& surfaces) {
   gl_.BindTextureUnit(kShadowValues, shadows_.values().name());
   gl_.BindTextureUnit(kShadowEdges, shadows_.edges()->edges().name());
-  sun_->draw(surfaces.has_rays());
+  sun_->draw(view.intrinsics.width, view.intrinsics.height, shadows_.edges()->pyramids(), surfaces.has_rays());
   gl_.BindTextureUnit(kSunNumbers, sun_->numbers().name());
   gl_.BindTextureUnit(kSunShares, sun_->shares().name());
-  return true;
-}
-
-ImageTiles GlColourPass::tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const {
-  const Intrinsics& k = view.intrinsics;
-  // The longest ray that reaches unit depth.
-  const double x = std::max(k.cx + 0.5, k.width - k.cx) / k.fx;
-  const double y = std::max(k.cy + 0.5, k.height - k.cy) / k.fy;
-  const double longest =
-      surfaces.has_rays() ? 1 / double(RayPass::kLeastCosine) : std::sqrt(1 + x * x + y * y);
-  return cut_into_tiles(surfaces.depth_values, k.width, k.height,
-                        float(double(kNearPlane) * longest / kVeilFrom), pool_);
-}
-
-void GlColourPass::draw_tiles(int variant, const ImageTiles& tiles, int every, const GlassLayer* layer) {
-  // Of pixels `every` apart, the first at half of that: those before `end`.
-  const auto count = [every](int end) { return std::max(0, end + every - 1 - every / 2) / every; };
-  gl_.Enable(GL_SCISSOR_TEST);
-  const GlProgram* current = nullptr;
-  for (const TileRun& run : tiles.runs) {
-    if (layer && (run.x >= layer->x1 || run.x + run.width <= layer->x0 || run.y >= layer->y1 ||
-                  run.y + run.height <= layer->y0))
-      continue;
-    const GlProgram& wanted = program(variant, run.content);
-    if (current != &wanted) gl_.UseProgram(wanted.name());
-    current = &wanted;
-    const int x = count(run.x), y = count(run.y);
-    gl_.Scissor(x, y, count(run.x + run.width) - x, count(run.y + run.height) - y);
-    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-  }
-  gl_.Disable(GL_SCISSOR_TEST);
 }
 
 void GlColourPass::draw_meter(const ViewProjection& view, const Pose& world_from_camera, const SurfaceImages& surfaces,

@@ -10,7 +10,6 @@
 #include "render/devices/gl/contact_pass.h"
 #include "render/devices/gl/gl_raster.h"
 #include "render/devices/gl/gl_shadow_pass.h"
-#include "render/devices/gl/image_tiles.h"
 #include "render/devices/gl/lamp_pass.h"
 #include "render/devices/gl/sun_shadow_pass.h"
 #include "render/geometry/ground_map.h"
@@ -59,16 +58,13 @@ class GlColourPass : public ColourPass {
   const std::unique_ptr<LampPass>& lamp_;
   ThreadPool& pool_;
   enum Variant { kLinear = 1, kRays = 2, kLamp = 4, kMeter = 8, kSoftSun = 16, kBehind = 32 };
-  const GlProgram& program(int variant, TileContent content);  // made when it is first needed
-  ImageTiles tiles_of(const ViewProjection& view, const SurfaceImages& surfaces) const;
+  const GlProgram& program(int variant);  // made when it is first needed
   void draw_meter(const ViewProjection& view, const Pose& world_from_camera, const SurfaceImages& surfaces,
                   const FrameLight& light);
-  bool draw_sun(const ViewProjection& view, const SurfaceImages& surfaces, const FrameLight& light);
-  void draw_tiles(int variant, const ImageTiles& tiles, int every,  // n-th pixel
-                  const GlassLayer* layer);
+  void draw_sun(const ViewProjection& view, const SurfaceImages& surfaces);
 
   ShaderDefines defines_;
-  GlProgram programs_[64][4];  // by Variant and TileContent
+  GlProgram programs_[64];  // by Variant
   GlBuffer frame_block_;
   GlVertexArray empty_array_;
   ContactPass contact_;
@@ -79,8 +75,7 @@ class GlColourPass : public ColourPass {
   int given_width_ = 0, given_height_ = 0;         // of these
   std::uint64_t lens_ = 0;                         // of lens_rays_
   const GroundMap& ground_;
-  ImageTiles tiles_;  // of what was drawn last
-  const GlTexture* nodes_ = nullptr;  // light for that
+  const GlTexture* nodes_ = nullptr;  // light for what was drawn last
   std::vector<Behind> behind_;  // the outermost first
   const GlTexture* shown_behind_ = nullptr;  // by what is drawn next; null: nothing
   GlTexture colour_, metered_;

@@ -95,8 +95,14 @@ void GlRaster::finish() {
   values_back_.ask(width_, height_, GL_RED, GL_FLOAT);
   ids_asked_ = ids_wanted_, ids_wanted_ = false;
   if (ids_asked_) ask_ids();
-  values_back_.take(values_.data());
+  values_asked_ = true;
   check_gl(gl_, "drawing the triangles");
+}
+
+const std::vector<float>& GlRaster::depth_values() const {
+  if (values_asked_) values_back_.take(values_.data());
+  values_asked_ = false;
+  return values_;
 }
 
 void GlRaster::ask_ids() const {

@@ -21,7 +21,7 @@ class GlRaster : public TriangleRaster {
   const std::vector<float>& depth_so_far() override;
   void finish() override;
 
-  const std::vector<float>& depth_values() const override { return values_; }
+  const std::vector<float>& depth_values() const override;
   const std::uint32_t* ids() const override { return nullptr; }
   std::vector<std::uint32_t> read_ids() const override;
 
@@ -46,7 +46,8 @@ class GlRaster : public TriangleRaster {
   GlFramebuffer target_, plane_target_;
   int width_ = 0, height_ = 0;
   const ViewProjection* view_ = nullptr;
-  std::vector<float> values_;
+  mutable std::vector<float> values_;
+  mutable bool values_asked_ = false;  // and not yet taken
   mutable GlReadback values_back_, ids_back_;
   // ids: come back with the depth where those of the image before were asked for.
   mutable bool ids_wanted_ = false;

@@ -15,6 +15,13 @@ struct SpreadBlock {
   std::int32_t spread[4];
 };
 
+// Tiles of all levels.
+std::size_t pyramid_size(int side) {
+  std::size_t out = 1;
+  for (; side > 1; side = (side + 1) / 2) out += std::size_t(side) * std::size_t(side);
+  return out;
+}
+
 }  // namespace
 
 ShadowEdgePass::ShadowEdgePass(const Gl& gl, int side, std::vector<EdgeView> views)
@@ -23,12 +30,15 @@ ShadowEdgePass::ShadowEdgePass(const Gl& gl, int side, std::vector<EdgeView> vie
       map_side_(side),
       side_((side + EdgeView::kTile - 1) / EdgeView::kTile),
       block_(gl),
+      pyramids_(gl),
       empty_array_(gl) {
   const ShaderDefines tile{{"TILE", std::to_string(EdgeView::kTile)}};
   ShaderDefines find = tile;
   find.push_back({"FIND", ""});
   find_ = make_program(gl, "fullscreen.vert.glsl", "shadow_edges.frag.glsl", find);
   spread_ = make_program(gl, "fullscreen.vert.glsl", "shadow_edges.frag.glsl", tile);
+  pyramid_ = make_compute_program(gl, "edge_pyramid.comp.glsl");
+  bind_samplers(gl, pyramid_, {{"shadow_edges", 0}});
   for (const GlProgram* program : {&find_, &spread_}) {
     bind_samplers(gl, *program, {{"shadow_values", 0}, {"tiles", 0}});
     gl.UniformBlockBinding(program->name(), gl.GetUniformBlockIndex(program->name(), "Edges"), 0);
@@ -36,6 +46,7 @@ ShadowEdgePass::ShadowEdgePass(const Gl& gl, int side, std::vector<EdgeView> vie
   found_ = make_tiles(int(views_.size()));
   edges_ = make_tiles(int(views_.size()));
   across_ = make_tiles(1);
+  give_buffer(gl, pyramids_.name(), views_.size() * pyramid_size(side_) * 4, nullptr, GL_DYNAMIC_COPY);
 }
 
 GlTexture ShadowEdgePass::make_tiles(int layers) const {
@@ -54,7 +65,7 @@ void ShadowEdgePass::copy(const GlTexture& from, const GlTexture& to) const {
 
 void ShadowEdgePass::find(const GlTexture& values) {
   for (std::size_t layer = 0; layer < views_.size(); ++layer) find_in(values, layer, {{0, 0, side_, side_}});
-  read();
+  build_pyramids();
 }
 
 void ShadowEdgePass::keep() {
@@ -74,15 +85,27 @@ void ShadowEdgePass::find_again(const GlTexture& values, const std::vector<std::
       tiles.push_back({(r.x0 - 1) / EdgeView::kTile, (r.y0 - 1) / EdgeView::kTile, r.x1 / EdgeView::kTile + 1, r.y1 / EdgeView::kTile + 1});
     find_in(values, layer, merge_rects(std::move(tiles)));
   }
-  read();
+  build_pyramids();
 }
 
-void ShadowEdgePass::read() {
-  const std::size_t words = std::size_t(side_) * std::size_t(side_) * 2;
-  std::vector<std::uint32_t> all(words * views_.size());
-  take_image(gl_, edges_.name(), GL_RG_INTEGER, GL_UNSIGNED_INT, all.size() * sizeof all[0], all.data());
-  pyramids_.clear();
-  for (std::size_t i = 0; i < views_.size(); ++i) pyramids_.emplace_back(all.data() + i * words, side_);
+void ShadowEdgePass::build_pyramids() {
+  constexpr int kGroup = 8;  // local_size of the shader, along either axis
+  gl_.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  gl_.BindTextureUnit(0, edges_.name());
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, pyramids_.name());
+  gl_.UseProgram(pyramid_.name());
+  const GLint level = gl_.GetUniformLocation(pyramid_.name(), "level");
+  for (std::size_t layer = 0; layer < views_.size(); ++layer) {
+    int first = int(layer * pyramid_size(side_)), before = first;
+    for (int side = side_;; side = (side + 1) / 2) {
+      gl_.ProgramUniform4i(pyramid_.name(), level, side, first, before, GLint(layer));
+      const auto groups = GLuint((side + kGroup - 1) / kGroup);
+      gl_.DispatchCompute(groups, groups, 1);
+      gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+      before = first, first += side * side;
+      if (side == 1) break;
+    }
+  }
 }
 
 void ShadowEdgePass::find_in(const GlTexture& values, std::size_t layer, const std::vector<TexelRect>& tiles) {

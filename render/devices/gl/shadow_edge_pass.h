@@ -22,13 +22,13 @@ class ShadowEdgePass {
   void find_again(const GlTexture& values, const std::vector<std::vector<TexelRect>>& changed);
 
   const GlTexture& edges() const { return edges_; }  // two words a tile, see shaders/shadow_edges.frag.glsl
-  const std::vector<EdgePyramid>& pyramids() const { return pyramids_; }  // the same, one a view
+  const GlBuffer& pyramids() const { return pyramids_; }  // of the same, one a view: see shaders/edge_blocks.comp.glsl
 
  private:
   GlTexture make_tiles(int layers) const;
   void copy(const GlTexture& from, const GlTexture& to) const;
   void find_in(const GlTexture& values, std::size_t layer, const std::vector<TexelRect>& tiles);
-  void read();
+  void build_pyramids();
   // Draws all rectangles, grown by so many tiles.
   void draw(const GlProgram& program, const GlTexture& source, const GlTexture& target, std::size_t layer,
             const std::vector<TexelRect>& tiles, int grow_x, int grow_y);
@@ -37,12 +37,11 @@ class ShadowEdgePass {
   std::vector<EdgeView> views_;
   int map_side_;
   int side_;  // unit: tile
-  GlProgram find_, spread_;
-  GlBuffer block_;
+  GlProgram find_, spread_, pyramid_;
+  GlBuffer block_, pyramids_;
   GlVertexArray empty_array_;
   GlTexture found_, edges_;                  // one layer a view
   GlTexture kept_found_, kept_edges_;        // the same, of what rests
-  std::vector<EdgePyramid> pyramids_;
   GlTexture across_;                         // found_ of one layer, spread along x
 };
 

@@ -21,11 +21,9 @@ class SunShadowPass {
   // there.
   SunShadowPass(const Gl& gl, int views, Samplers samplers, int blocks);
 
-  // Puts what is to be drawn on the device. width, height: of the image.
-  void set_blocks(const std::vector<EdgeBlock>& blocks, int width, int height);
-  // With the block of the frame and the textures bound as for the resolve pass. rays: as its
-  // variant.
-  void draw(bool rays);
+  // With the block of the frame and the textures bound as for the resolve pass. width, height: of the image. pyramids: as
+  // ShadowEdgePass. rays: as the variant of the shaders.
+  void draw(int width, int height, const GlBuffer& pyramids, bool rays);
 
   const GlTexture& numbers() const { return numbers_; }  // of each block of the image; 0: not drawn
   const GlTexture& shares() const {
@@ -33,19 +31,23 @@ class SunShadowPass {
   }  // of the blocks by number, in rows of kColumns; of 0 nothing
 
  private:
-  const GlProgram& program(bool rays);  // made when it is first needed
+  struct Programs {
+    GlProgram find, draw;
+  };
+  const Programs& programs(bool rays);  // made when they are first needed
   void resize(int width, int height);
 
   const Gl& gl_;
   int views_;
   Samplers samplers_;
   int blocks_unit_;
-  GlProgram programs_[2];
+  Programs programs_[2];
+  GlBuffer list_;  // of the blocks, for an indirect drawing
   GlVertexArray empty_array_;
   GlTexture places_, numbers_, shares_;
   GlFramebuffer target_;
   int width_ = 0, height_ = 0;  // of the image
-  int rows_ = 0;                // that hold blocks
+  int rows_ = 0;                // of blocks, where all are drawn
 };
 
 }  // namespace rubble

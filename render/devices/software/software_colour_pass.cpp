@@ -110,12 +110,12 @@ class SoftwareColourPass : public ColourPass {
                const SurfaceImages& surfaces, const FrameLight& light, float exposure,
                Purpose purpose, const GlassLayer* layer = nullptr) {
     const ViewLamp lamp = find_view_lamp(view, world_from_camera, light);
-    const float nearest = largest_of(surfaces.depth_values);
+    const float nearest = largest_of(*surfaces.depth_values);
     const bool all_light = purpose == Purpose::linear || purpose == Purpose::meter;
     data_.lamp =
         has_lamp(light) && (all_light || lamp_shows(light, lamp.offset, nearest, exposure));
     if (purpose != Purpose::display_metered)
-      openness_.find(shader_, view, surfaces.depth_values, lamp.contact(data_.lamp, light), layer ? layer->y0 : 0,
+      openness_.find(shader_, view, *surfaces.depth_values, lamp.contact(data_.lamp, light), layer ? layer->y0 : 0,
                      layer ? layer->y1 : view.intrinsics.height, pool_);
     data_.openness = openness_.view();
     if (!data_.openness.lamp) data_.lamp = false;  // it was found not to show
@@ -123,7 +123,7 @@ class SoftwareColourPass : public ColourPass {
     data_.frame = fill_frame_block(view, light, lamp.bearer, ground_, texture_size_, exposure);
     data_.width = view.intrinsics.width, data_.height = view.intrinsics.height;
     data_.every = purpose == Purpose::meter ? kMeterEvery : 1;
-    data_.ids = surfaces.ids, data_.depth_values = surfaces.depth_values.data();
+    data_.ids = surfaces.ids, data_.depth_values = surfaces.depth_values->data();
     data_.lens_rays = surfaces.ray_values, data_.row_poses = surfaces.pose_values;
     data_.vertices = tables_.vertices.data(), data_.triangles = tables_.triangles.data();
     data_.placed = tables_.placed.data(), data_.paint = tables_.paint.data();
@@ -140,11 +140,11 @@ class SoftwareColourPass : public ColourPass {
   void shade_behind(const ViewProjection& view, const Pose& world_from_camera, const SurfaceImages& surfaces,
                     const FrameLight& light) {
     if (!surfaces.through_glass()) return;
-    const std::size_t size = surfaces.depth_values.size() * 4;
+    const std::size_t size = surfaces.depth_values->size() * 4;
     behind_.resize(std::max(behind_.size(), surfaces.behind->size()));
     for (std::size_t k = surfaces.behind->size(); k-- > 0;) {
       const GlassLayer& layer = (*surfaces.behind)[k];
-      SurfaceImages images{layer.ids.data(), layer.depth_values};
+      SurfaceImages images{layer.ids.data(), &layer.depth_values};
       images.ray_values = surfaces.ray_values, images.pose_values = surfaces.pose_values;
       prepare(view, world_from_camera, images, light, 1, Purpose::linear, &layer);
       if (k + 1 < surfaces.behind->size()) data_.behind = behind_[k + 1].data();
@@ -159,7 +159,7 @@ class SoftwareColourPass : public ColourPass {
   void fill_edges(const ViewProjection& view, const SurfaceImages& surfaces,
                   const FrameLight& light) {
     const std::vector<EdgeBlock> blocks = find_edge_blocks(
-        surfaces.has_rays() ? nullptr : &view, {surfaces.depth_values, data_.width, data_.height},
+        surfaces.has_rays() ? nullptr : &view, {*surfaces.depth_values, data_.width, data_.height},
         light.shadow->edge_layers(shadows_.edges()), Vec3(light.lights->lights.front().axis) * -1.0, pool_);
     if (blocks.empty()) return;
     SunEdges& out = data_.sun_edges;

@@ -58,6 +58,7 @@ namespace rubble {
   X(GetShaderInfoLog, GETSHADERINFOLOG)                         \
   X(GetShaderiv, GETSHADERIV)                                   \
   X(GetString, GETSTRING)                                       \
+  X(GetStringi, GETSTRINGI)                                     \
   X(GetTextureImage, GETTEXTUREIMAGE)                           \
   X(GetTextureSubImage, GETTEXTURESUBIMAGE)                     \
   X(GetUniformBlockIndex, GETUNIFORMBLOCKINDEX)                 \
@@ -75,6 +76,7 @@ namespace rubble {
   X(PixelStorei, PIXELSTOREI)                                   \
   X(ProgramUniform1i, PROGRAMUNIFORM1I)                         \
   X(ProgramUniform2i, PROGRAMUNIFORM2I)                         \
+  X(ProgramUniform4f, PROGRAMUNIFORM4F)                         \
   X(ProgramUniform4i, PROGRAMUNIFORM4I)                         \
   X(ReadPixels, READPIXELS)                                     \
   X(Scissor, SCISSOR)                                           \
@@ -109,6 +111,8 @@ struct Gl {
 #define RUBBLE_GL_MEMBER(name, upper) PFNGL##upper##PROC name = nullptr;
   RUBBLE_GL_FUNCTIONS(RUBBLE_GL_MEMBER)
 #undef RUBBLE_GL_MEMBER
+  // Null: the driver has no GL_ARB_indirect_parameters, which OpenGL has from 4.6 on.
+  PFNGLMULTIDRAWELEMENTSINDIRECTCOUNTARBPROC MultiDrawElementsIndirectCount = nullptr;
   GlTraffic* traffic = nullptr;  // never null in a context; counted by gl_traffic.h
 };
 

@@ -37,6 +37,14 @@ std::string why_chosen(const GlContextOptions& options, const EglCandidate& cand
   return "the first that works, after " + std::to_string(failed.size()) + " that do not";
 }
 
+bool has_extension(const Gl& gl, const std::string& name) {
+  GLint count = 0;
+  gl.GetIntegerv(GL_NUM_EXTENSIONS, &count);
+  for (GLint i = 0; i < count; ++i)
+    if (name == reinterpret_cast<const char*>(gl.GetStringi(GL_EXTENSIONS, GLuint(i)))) return true;
+  return false;
+}
+
 struct NamedLimit {
   const char* name;
   GLenum code;
@@ -82,6 +90,9 @@ std::string GlContext::State::load_functions() {
   if (!gl.name) return "the driver has no gl" #name;
   RUBBLE_GL_FUNCTIONS(RUBBLE_GL_LOAD)
 #undef RUBBLE_GL_LOAD
+  if (has_extension(gl, "GL_ARB_indirect_parameters"))
+    gl.MultiDrawElementsIndirectCount = reinterpret_cast<PFNGLMULTIDRAWELEMENTSINDIRECTCOUNTARBPROC>(
+        egl.GetProcAddress("glMultiDrawElementsIndirectCountARB"));
   const auto text = [&](GLenum what) {
     const GLubyte* s = gl.GetString(what);
     return std::string(s ? reinterpret_cast<const char*>(s) : "");

@@ -16,12 +16,21 @@ struct ClusterRun {
   std::uint32_t placed, first_cluster, cluster_count;  // number of the mesh, and its clusters
 };
 
+// A placed mesh that may be in view, and its level of detail.
+struct DrawCandidate {
+  std::uint32_t placed, level;
+};
+
 class TriangleRaster {
  public:
   virtual ~TriangleRaster() = default;
 
   virtual void begin(const ViewProjection& view) = 0;  // clears; the view must outlive the drawing
   virtual void draw(const std::vector<ClusterRun>& runs) = 0;
+  // Draws of these what shows, as VisibilityPass would choose it, so that nothing has to come back from the device. Nearest
+  // first. False: it does not do that.
+  virtual bool draw_what_shows(const std::vector<DrawCandidate>& candidates) { return (void)candidates, false; }
+  virtual std::size_t read_triangles() const { return 0; }  // that it drew then; a device is waited for
   // near / Z (0: nothing) of what was drawn since begin(), rows from the top; good enough to cull by.
   virtual const std::vector<float>& depth_so_far() = 0;
   // Ends the image: from now on what follows is there, until the next begin().

@@ -47,7 +47,7 @@ void VisibilityPass::find_candidates(const ViewProjection& view) {
     if (!piece.there) continue;
     const Vec3f c = turn * piece.centre + shift;
     if (!volume.sphere_in_view(c, piece.radius)) continue;
-    candidates_.push_back({i, choose_level(piece, c.z, focal), norm(c) - piece.radius * 0.5f});
+    candidates_.push_back({{i, choose_level(piece, c.z, focal)}, norm(c) - piece.radius * 0.5f});
   }
   // Near ones first, so that they hide the others' fragments; ties in order of placing.
   std::stable_sort(candidates_.begin(), candidates_.end(),
@@ -134,9 +134,11 @@ void VisibilityPass::draw(const ViewProjection& view) {
   std::fill(drawn_.begin(), drawn_.end(), std::uint8_t(0));
   const bool cull = options_.occlusion_culling;
   if (!cull) have_history_ = false;
+  raster_.begin(view);
+  chosen_by_raster_ = cull && raster_.draw_what_shows({candidates_.begin(), candidates_.end()});
+  if (chosen_by_raster_) return raster_.finish();
   choose(view, false);
   counts_ = {run_triangles_, run_triangles_};
-  raster_.begin(view);
   raster_.draw(runs_);
   if (cull) {
     pyramid_.build(raster_.depth_so_far().data(), view.intrinsics.width, view.intrinsics.height);
@@ -146,6 +148,12 @@ void VisibilityPass::draw(const ViewProjection& view) {
     if (!runs_.empty()) raster_.draw(runs_);
   }
   raster_.finish();
+}
+
+VisibilityPass::Counts VisibilityPass::counts() const {
+  if (!chosen_by_raster_) return counts_;
+  const std::size_t triangles = raster_.read_triangles();
+  return {triangles, triangles};
 }
 
 }  // namespace rubble

@@ -31,12 +31,10 @@ class VisibilityPass {
   struct Counts {
     std::size_t triangles = 0, first_batch = 0;  // drawn; of these before any depth was known
   };
-  const Counts& counts() const { return counts_; }
+  Counts counts() const;
 
  private:
-  struct Candidate {
-    std::uint32_t placed;
-    std::uint32_t level;
+  struct Candidate : DrawCandidate {
     float distance;
   };
   void find_candidates(const ViewProjection& view);
@@ -64,6 +62,7 @@ class VisibilityPass {
   bool have_history_ = false;
   DepthPyramid pyramid_;
   Counts counts_;
+  bool chosen_by_raster_ = false;  // what is drawn now
 };
 
 }  // namespace rubble

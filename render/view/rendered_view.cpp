@@ -57,7 +57,6 @@ DrawnSurfaces& RenderedView::State::drawn() {
     const Stopwatch start;
     surfaces = std::make_unique<DrawnSurfaces>(source.surfaces, rays);
     times.visibility = start.time();
-    times.triangles = surfaces->triangles();
   }
   return *surfaces;
 }
@@ -154,7 +153,10 @@ std::vector<Vec3f> RenderedView::shifts(std::int64_t stamp_ns) {
 
 Air RenderedView::air() const { return state_->source.scene.air_at(state_->rays.stamp_ns); }
 
-const RenderTimes& RenderedView::times() const { return state_->times; }
+const RenderTimes& RenderedView::times() const {
+  if (state_->surfaces) state_->times.triangles = state_->surfaces->triangles();
+  return state_->times;
+}
 
 Frame RenderedView::into_frame(int index, const StreamSet& streams) && {
   rgb(), depth();

@@ -74,7 +74,7 @@ void DrawnSurfaces::draw() {
   lit.move_to(view_.stamp_ns);
   if (view_.plain()) {
     drawer_.visibility_.draw({view_.world_from_camera, view_.intrinsics});
-    triangles_ = drawer_.visibility_.counts().triangles;
+    triangles_.reset();
   } else {
     if (!drawer_.rays_)
       drawer_.rays_ =
@@ -91,8 +91,13 @@ bool DrawnSurfaces::in_pass() const {
 // Another drawing might name another triangle where two lie at the very same depth, so the images
 // are kept. Rays have no history: casting them again gives the same.
 void DrawnSurfaces::save() {
-  ids(), planar_depth(), distances();
+  ids(), planar_depth(), distances(), triangles();
   saved_depth_values_ = depth_values();
+}
+
+std::size_t DrawnSurfaces::triangles() {
+  if (!triangles_) triangles_ = in_raster() ? drawer_.visibility_.counts().triangles : 0;
+  return *triangles_;
 }
 
 // Glass. ids: of the view.

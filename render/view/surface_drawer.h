@@ -61,7 +61,7 @@ class DrawnSurfaces {
   // The same, given away.
   std::vector<float> take_planar_depth();
   std::vector<float> take_distances();
-  std::size_t triangles() const { return triangles_; }  // drawn; 0: rays were cast
+  std::size_t triangles();                            // drawn; 0: rays were cast
 
  private:
   void draw();
@@ -74,7 +74,7 @@ class DrawnSurfaces {
 
   SurfaceDrawer& drawer_;
   ViewRays view_;
-  std::size_t triangles_ = 0;
+  std::optional<std::size_t> triangles_;
   std::vector<std::uint32_t> ids_;  // each empty until first asked for
   std::vector<float> planar_depth_, distances_;
   std::vector<float> saved_depth_values_;

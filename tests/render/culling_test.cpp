@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "render/devices/gl/gl_device.h"
 #include "render/devices/software/software_device.h"
 #include "render/renderer.h"
 #include "tests/render/cached_options.h"
@@ -23,11 +24,9 @@ RenderOptions options_with(bool culling) {
 
 // What is hidden may be left out, but nothing that shows: the same pieces and depths with and
 // without, along a path with large steps so that the memory of the frame before is often wrong.
-TEST(OcclusionCulling, NeverDropsWhatShows) {
+void check_that_nothing_is_dropped(Device& device, const Intrinsics& k) {
   const Scene heap = make_heap(500, 3);
-  SoftwareDevice device;
   Renderer with(device, heap, options_with(true)), without(device, heap, options_with(false));
-  const Intrinsics k = pinhole(320, 240, 200);
   const Vec3 eyes[] = {{7, 2, 1.5}, {4, 0.3, 0.7}, {1, 0, 0.6}, {-1, 0.2, 0.5},
                        {-6, -4, 3}, {0.2, 0.1, 5}, {1, 0, 0.6}};
   const Vec3 targets[] = {{0, 0, 1}, {0, 0, 0.6}, {-1.5, 0.5, 0.6}, {3, 0, 0.6},
@@ -48,9 +47,15 @@ TEST(OcclusionCulling, NeverDropsWhatShows) {
   }
 }
 
-TEST(OcclusionCulling, LeavesMostOfAHeapOut) {
+TEST(OcclusionCulling, NeverDropsWhatShows) {
+  SoftwareDevice software;
+  check_that_nothing_is_dropped(software, pinhole(320, 240, 200));
+  GlDevice gl;
+  check_that_nothing_is_dropped(gl, pinhole(186, 143, 120));
+}
+
+void check_that_most_is_left_out(Device& device) {
   const Scene heap = make_heap(500, 3);
-  SoftwareDevice device;
   Renderer with(device, heap, options_with(true)), without(device, heap, options_with(false));
   const Pose pose = look_at({1, 0, 0.6}, {-1.5, 0, 0.5});
   const Intrinsics k = pinhole(320, 240, 200);
@@ -61,6 +66,13 @@ TEST(OcclusionCulling, LeavesMostOfAHeapOut) {
   };
   triangles(with, 0);
   EXPECT_LT(triangles(with, 1) * 3, triangles(without, 0));
+}
+
+TEST(OcclusionCulling, LeavesMostOfAHeapOut) {
+  SoftwareDevice software;
+  check_that_most_is_left_out(software);
+  GlDevice gl;
+  check_that_most_is_left_out(gl);
 }
 
 TEST(DepthPyramid, HidesOnlyWhatIsBehindAllOfARectangle) {

@@ -118,7 +118,7 @@ TEST(LampPassControl, HandsLittleOver) {
   renderer.view(ahead()).rgb();
   const DeviceTraffic after = gl.traffic();
   EXPECT_LT(after.given - before.given, 100000u);
-  EXPECT_LE(after.waits - before.waits, 3u);
+  EXPECT_LE(after.waits - before.waits, 1u);
 }
 
 }  // namespace lamp_pass_test

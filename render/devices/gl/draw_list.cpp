@@ -1,5 +1,6 @@
 #include "render/devices/gl/draw_list.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "render/gl/gl_traffic.h"
@@ -32,14 +33,27 @@ void DrawList::add_run(std::uint32_t first_index, std::uint32_t count) {
   commands_.push_back({count, 1, first_index, 0, std::uint32_t(records_.size() - 1)});
 }
 
+void DrawList::give_records() {
+  give_buffer(*gl_, record_buffer_.name(), std::max<std::size_t>(1, records_.size()) * sizeof(DrawRecord),
+              records_.empty() ? nullptr : records_.data(), GL_STREAM_DRAW);
+}
+
 void DrawList::draw() {
   if (commands_.empty()) return;
-  give_buffer(*gl_, record_buffer_.name(), records_.size() * sizeof(DrawRecord), records_.data(), GL_STREAM_DRAW);
+  give_records();
   give_buffer(*gl_, command_buffer_.name(), commands_.size() * sizeof(DrawCommand), commands_.data(), GL_STREAM_DRAW);
   gl_->BindVertexArray(array_.name());
   gl_->BindBuffer(GL_DRAW_INDIRECT_BUFFER, command_buffer_.name());
   gl_->MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, GLsizei(commands_.size()),
                                  0);
+}
+
+void DrawList::draw(const GlBuffer& commands, const GlBuffer& count, GLsizei most) {
+  gl_->BindVertexArray(array_.name());
+  gl_->BindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.name());
+  gl_->BindBuffer(GL_PARAMETER_BUFFER, count.name());
+  gl_->MultiDrawElementsIndirectCount(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, 0, most, 0);
+  gl_->BindBuffer(GL_PARAMETER_BUFFER, 0);  // Mesa takes counts from it in drawings without it, too
 }
 
 }  // namespace rubble

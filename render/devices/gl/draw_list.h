@@ -16,7 +16,7 @@ struct DrawCommand {  // as glMultiDrawElementsIndirect wants it
 struct DrawRecord {  // attributes of one command, see shaders/visibility.vert.glsl
   float clip_x[4], clip_y[4], clip_w[4];  // rows of clip_from_mesh
   std::uint32_t placed, unused;           // number of the placed mesh; padding
-  float clip_z[4];
+  float clip_z[4];                        // for shadows; else the eye in the mesh
 };
 
 class DrawList {
@@ -29,6 +29,10 @@ class DrawList {
   // A run of triangles with the record added last.
   void add_run(std::uint32_t first_index, std::uint32_t count);
   void draw();
+  // By commands and their number on the card, at most `most`, whose base instances are numbers of the records.
+  void give_records();
+  GLuint records() const { return record_buffer_.name(); }
+  void draw(const GlBuffer& commands, const GlBuffer& count, GLsizei most);
 
  private:
   const Gl* gl_;

@@ -46,7 +46,7 @@ void GlRaster::begin(const ViewProjection& view) {
   gl_.ClearNamedFramebufferuiv(target_.name(), GL_COLOR, 0, none);
 }
 
-void GlRaster::draw(const std::vector<ClusterRun>& runs) {
+void GlRaster::prepare_to_draw() {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target_.name());
   gl_.Viewport(0, 0, width_, height_);
   gl_.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -56,6 +56,23 @@ void GlRaster::draw(const std::vector<ClusterRun>& runs) {
   gl_.Enable(GL_CULL_FACE);
   gl_.FrontFace(GL_CW);  // rows run downwards, which mirrors the triangles
   gl_.UseProgram(program_.name());
+}
+
+bool GlRaster::draw_what_shows(const std::vector<DrawCandidate>& candidates) {
+  if (!gl_.MultiDrawElementsIndirectCount) return false;
+  if (!cull_) cull_ = std::make_unique<CullPass>(gl_, scene_, geometry_);
+  list_.clear();
+  for (const DrawCandidate& candidate : candidates) add_record(candidate.placed);
+  const auto prepare = [&] { prepare_to_draw(); };
+  cull_->begin(candidates, list_, width_, height_);
+  cull_->draw_first(list_, prepare);
+  cull_->draw_others(list_, depth_, prepare);
+  check_gl(gl_, "drawing what shows");
+  return true;
+}
+
+void GlRaster::draw(const std::vector<ClusterRun>& runs) {
+  prepare_to_draw();
   list_.clear();
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (i == 0 || runs[i].placed != runs[i - 1].placed) add_record(runs[i].placed);
@@ -144,6 +161,8 @@ void GlRaster::add_record(std::uint32_t placed) {
   std::copy(rows[1].begin(), rows[1].end(), record.clip_y);
   std::copy(rows[2].begin(), rows[2].end(), record.clip_w);
   record.placed = placed;
+  const Vec3f eye((view_->optical_from_world * piece.world_from_mesh).inverse().translation * (1 / piece.scale));
+  record.clip_z[0] = eye.x, record.clip_z[1] = eye.y, record.clip_z[2] = eye.z;
   list_.add_record(record);
 }
 

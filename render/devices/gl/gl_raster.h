@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "render/devices/gl/draw_list.h"
+#include "render/devices/gl/cull_pass.h"
 #include "render/gl/gl_exchange.h"
 #include "render/gl/shader.h"
 #include "render/passes/triangle_raster.h"
@@ -18,6 +19,8 @@ class GlRaster : public TriangleRaster {
 
   void begin(const ViewProjection& view) override;
   void draw(const std::vector<ClusterRun>& runs) override;
+  bool draw_what_shows(const std::vector<DrawCandidate>& candidates) override;
+  std::size_t read_triangles() const override { return cull_->read_triangles(); }
   const std::vector<float>& depth_so_far() override;
   void finish() override;
 
@@ -31,6 +34,7 @@ class GlRaster : public TriangleRaster {
 
  private:
   void resize(int width, int height);
+  void prepare_to_draw();
   void add_record(std::uint32_t placed);
   void add_run(const ClusterRun& run);
   void ask_ids() const;
@@ -40,6 +44,7 @@ class GlRaster : public TriangleRaster {
   const GlGeometry& geometry_;
   GlProgram program_, plane_program_;
   DrawList list_;
+  std::unique_ptr<CullPass> cull_;  // null: not asked for, or not to be had
   GlBuffer block_;
   GlVertexArray empty_array_;
   GlTexture ids_, depth_, plane_depth_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "kernel/base/error.h"
+#include "kernel/base/parallel.h"
 
 namespace rubble {
 namespace {
@@ -36,14 +37,17 @@ VoidMap find_voids(VoidSpace space, const std::vector<double>& radii,
     if (progress && !progress(done)) throw RunError("stopped while looking for voids");
   };
   VoidMap map;
-  // Each takes memory of its own while it is at work; what is kept of the widest paths is the most, so they come last.
-  if (!radii.empty()) map.graph = make_graph(space, radii);
-  report(0.2);
-  for (std::size_t i = 0; i < radii.size(); ++i) {
-    map.robots.push_back(find_robot_voids(space, radii[i], 0));
-    report(0.2 + 0.4 * double(i + 1) / double(radii.size()));
-  }
-  map.widest = find_widest_paths(space);
+  // Each takes memory of its own while it is at work, so those of a map that is kept small come one after the other.
+  const int threads = space.clearance.is_sparse() ? 1 : 2;
+  const auto find_places = [&] {
+    if (!radii.empty()) map.graph = make_graph(space, radii);
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+      if (threads == 1) report(0.2 + 0.4 * double(i) / double(radii.size()));
+      map.robots.push_back(find_robot_voids(space, radii[i], 0));
+    }
+    if (threads == 1) report(0.6);
+  };
+  parallel_for(2, threads, [&](std::size_t i) { i == 0 ? find_places() : void(map.widest = find_widest_paths(space)); });
   for (RobotVoids& robot : map.robots) add_bottlenecks(space, map.widest, robot);
   map.void_volume = space.volume(CellKind::free_void);
   map.covered_volume = space.covered_volume();

@@ -11,7 +11,8 @@ void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy), table = ivec2(COLUMNS, ROWS);
   if (any(greaterThanEqual(at, table))) return;
 #ifdef LEAST
-  ivec2 size = textureSize(depth_values, 0), low = (at * size + table - 1) / table, high = ((at + 1) * size + table - 1) / table;
+  ivec2 size = textureSize(depth_values, 0);
+  ivec2 low = (at * size + table - 1) / table, high = ((at + 1) * size + table - 1) / table;
   float least = 1.0;
   for (int v = low.y; v < high.y; ++v)
     for (int u = low.x; u < high.x; ++u) least = min(least, texelFetch(depth_values, ivec2(u, v), 0).x);

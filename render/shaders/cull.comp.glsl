@@ -47,7 +47,7 @@ bool may_show(vec4 rows[3], Cluster c) {
   if (near_z <= image.z) return true;
   vec2 low = vec2(1e30), high = vec2(-1e30);
   for (int k = 0; k < 8; ++k) {
-    vec3 p = at + sides[0] * ((k & 1) != 0 ? 1.0 : -1.0) + sides[1] * ((k & 2) != 0 ? 1.0 : -1.0) + sides[2] * ((k & 4) != 0 ? 1.0 : -1.0);
+    vec3 p = at + sides * (vec3(k & 1, k >> 1 & 1, k >> 2) * 2.0 - 1.0);
     vec2 pixel = (p.xy / p.z * 0.5 + 0.5) * image.xy - 0.5;
     low = min(low, pixel), high = max(high, pixel);
   }

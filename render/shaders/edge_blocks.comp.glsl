@@ -21,7 +21,8 @@ uvec2 both(uvec2 a, uint code) { return uvec2(min(a.x, code & 65535u), max(a.y, 
 // What a rectangle of the map, 0 to 1, meets of the edges of a view.
 uvec2 range_of(int of_view, vec2 low, vec2 high) {
   int side = textureSize(shadow_edges, 0).x, first = 0;
-  ivec2 a = ivec2(clamp(low * float(side), 0.0, float(side - 1))), b = ivec2(clamp(high * float(side), 0.0, float(side - 1)));
+  ivec2 a = ivec2(clamp(low * float(side), 0.0, float(side - 1)));
+  ivec2 b = ivec2(clamp(high * float(side), 0.0, float(side - 1)));
 #if VIEWS > 1
   if (of_view > 0) {
     int all_tiles = 0;

@@ -3,8 +3,9 @@ uniform ivec2 size;
 
 void main() {
   int number = gl_InstanceID + 1;
-  ivec2 corner = ivec2(gl_VertexID == 1 || gl_VertexID >= 4 ? 1 : 0, gl_VertexID == 2 || gl_VertexID == 3 || gl_VertexID == 5 ? 1 : 0);
-  // 0: (0,0), 1: (1,0), 2: (0,1); 3: (0,1), 4: (1,0), 5: (1,1)
+  // (0, 0), (1, 0), (0, 1); (0, 1), (1, 0), (1, 1)
+  int of_both = gl_VertexID == 5 ? 3 : gl_VertexID % 3 == 0 && gl_VertexID > 0 ? 2 : gl_VertexID == 4 ? 1 : gl_VertexID;
+  ivec2 corner = ivec2(of_both & 1, of_both >> 1);
   ivec2 at = (ivec2(number & 255, number >> 8) + corner) * 4;
   gl_Position = vec4(vec2(at) * 2.0 / vec2(size) - 1.0, 0.0, 1.0);
 }

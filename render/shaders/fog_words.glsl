@@ -44,7 +44,8 @@ int find_neighbour(int i, int place) {
 
 // Of a link's part within the box; meets: how far away what it meets is.
 float length_of(int i, int direction, float meets) {
-  vec3 d = grid.directions[direction].xyz, from = grid.cell.xyz * vec3(cell_of(i)), box = grid.cell.xyz * vec3(grid.size.xyz - 1);
+  vec3 d = grid.directions[direction].xyz;
+  vec3 from = grid.cell.xyz * vec3(cell_of(i)), box = grid.cell.xyz * vec3(grid.size.xyz - 1);
   float border = grid.light_reach;
   for (int a = 0; a < 3; ++a)
     if (abs(d[a]) > 1e-6) border = min(border, (d[a] > 0.0 ? box[a] - from[a] : -from[a]) / d[a]);

@@ -13,7 +13,8 @@ vec3 find_lamp_illuminance(vec3 surface, vec3 normal) {
   vec3 part = at - vec3(cell), sum = vec3(0.0);
   // What the cosine asks for is in the first nine terms.
   float asked[9];
-  for (int t = 0; t < 9; ++t) asked[t] = harmonics_row(t >> 2, normal)[t & 3] * (t < 1 ? 3.1415927 : t < 4 ? 2.0943951 : 0.7853982);
+  for (int t = 0; t < 9; ++t)
+    asked[t] = harmonics_row(t >> 2, normal)[t & 3] * (t < 1 ? 3.1415927 : t < 4 ? 2.0943951 : 0.7853982);
   for (int c = 0; c < 8; ++c) {
     ivec3 off = ivec3(c & 1, c >> 1 & 1, c >> 2), corner = cell + off;
     vec3 share = mix(1.0 - part, part, vec3(off));

@@ -1,5 +1,5 @@
-// Light at the nodes about what a picture shows: what is baked, and what comes of the lamp. Variants: RESTORE, which takes the
-// lamp's light back; FOG, which adds what the air throws on surfaces.
+// Light at the nodes about what a picture shows: what is baked, and what comes of the lamp. Variants: RESTORE, which takes
+// the lamp's light back; FOG, which adds what the air throws on surfaces.
 #include "lamp_words.glsl"
 #include "packing.glsl"
 
@@ -53,6 +53,7 @@ void main() {
   colour += vec3(red_blue.x, 1.0 - red_blue.x - red_blue.y, red_blue.y) * (3.0 * max(dot(there, n), 0.0));
   vec3 all_light = clamp(there + vector, -60000.0, 60000.0);
   uvec2 shares = uvec2(round(255.0 * colour.rb / (colour.r + colour.g + colour.b)));
-  shown_light[at] = uvec2(packHalf2x16(all_light.xy), packHalf2x16(vec2(all_light.z, 0.0)) | shares.x << 16 | shares.y << 24);
+  shown_light[at] = uvec2(packHalf2x16(all_light.xy),
+                          packHalf2x16(vec2(all_light.z, 0.0)) | shares.x << 16 | shares.y << 24);
 #endif
 }

@@ -1,7 +1,7 @@
 // The light of the camera's lamp by way of surfaces, found anew for each place of the lamp.
 //
-// The map of LampReach says which points of the bake the lamp lights. Their light goes on over the points' links, which the bake has kept (direct-to-indirect
-// transfer: Hasan et al. 2006), to the pieces that the lamp may see: once, and a second time together with
+// The map of LampReach says which points of the bake the lamp lights. Their light goes on over the points' links, which the
+// bake has kept (direct-to-indirect transfer: Hasan et al. 2006), to the pieces that the lamp may see: once, and a second time together with
 // the first, whose share stands for all further times. The second time is done for the triangles alone that
 // the picture shows. So its cost goes with what is about the lamp and with what shows, and its noise lies
 // still on the surfaces.

@@ -24,6 +24,8 @@ struct CandidateEntry {
   std::uint32_t first_cluster, cluster_count, first_flag, wanted_without_history;
 };
 
+int tiles_in(int pixels) { return (pixels + DepthPyramid::kTile - 1) / DepthPyramid::kTile; }
+
 ClusterEntry entry_of(const Cluster& c, std::uint32_t first_index) {
   return {{c.centre.x, c.centre.y, c.centre.z, c.radius},
           {c.half.x, c.half.y, c.half.z, c.cone_cosine},
@@ -70,7 +72,8 @@ void CullPass::give_clusters(const PreparedScene& scene, const GlGeometry& geome
       first.push_back(std::uint32_t(out.size()));
       if (level > 0) {
         Cluster whole;
-        whole.centre = mesh.centre, whole.half = mesh.half, whole.radius = mesh.radius, whole.triangle_count = of.triangle_count;
+        whole.centre = mesh.centre, whole.half = mesh.half, whole.radius = mesh.radius;
+        whole.triangle_count = of.triangle_count;
         out.push_back(entry_of(whole, geometry.first_index(m, of.first_triangle)));
         continue;
       }
@@ -112,12 +115,11 @@ void CullPass::draw(DrawList& list, const GlProgram& choose, const Prepare& prep
     gl_.ProgramUniform1i(program.name(), gl_.GetUniformLocation(program.name(), "candidate_count"), candidate_count_);
     gl_.UseProgram(program.name());
     gl_.DispatchCompute(of_groups, 1, 1);
-    gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   };
-  gl_.ProgramUniform4f(choose.name(), gl_.GetUniformLocation(choose.name(), "image"), float(width_), float(height_), kNearPlane,
-                       drawn_before_ ? 1.0f : 0.0f);
-  gl_.ProgramUniform2i(choose.name(), gl_.GetUniformLocation(choose.name(), "first_tiles"),
-                       (width_ + DepthPyramid::kTile - 1) / DepthPyramid::kTile, (height_ + DepthPyramid::kTile - 1) / DepthPyramid::kTile);
+  const auto place = [&](const char* uniform) { return gl_.GetUniformLocation(choose.name(), uniform); };
+  gl_.ProgramUniform4f(choose.name(), place("image"), float(width_), float(height_), kNearPlane, drawn_before_ ? 1.0f : 0.0f);
+  gl_.ProgramUniform2i(choose.name(), place("first_tiles"), tiles_in(width_), tiles_in(height_));
   run(choose, pyramid_.name(), 0, groups);
   run(programs_.scan, 0, count_.name(), 1);
   run(programs_.emit, commands_.name(), triangles_.name(), groups);
@@ -135,10 +137,9 @@ void CullPass::draw_others(DrawList& list, const GlTexture& depth, const Prepare
 
 void CullPass::build_pyramid(const GlTexture& depth) {
   constexpr int kGroup = 8;  // local_size of the shader, along either axis
-  const auto tiles = [](int pixels) { return (pixels + DepthPyramid::kTile - 1) / DepthPyramid::kTile; };
   std::array<std::pair<int, int>, 32> sizes;
   std::size_t levels = 0, all = 0;
-  for (int x = tiles(width_), y = tiles(height_);; x = (x + 1) / 2, y = (y + 1) / 2) {
+  for (int x = tiles_in(width_), y = tiles_in(height_);; x = (x + 1) / 2, y = (y + 1) / 2) {
     sizes[levels++] = {x, y}, all += std::size_t(x) * std::size_t(y);
     if (x == 1 && y == 1) break;
   }

@@ -78,7 +78,8 @@ LampFogPass::LampFogPass(const Gl& gl, const FogLight& fog)
   };
   const std::size_t linked = points_ * kDirections * 16;
   size(state_, 16), size(air_points_, points_ * kAirPoint), size(total_, points_ * 9 * 16), size(emitted_, linked);
-  size(ends_in_, linked), size(air_in_, linked), size(terms_, 2 * points_ * sizeof(RadianceTerms)), size(stand_in_, 4 * points_);
+  size(ends_in_, linked), size(air_in_, linked);
+  size(terms_, 2 * points_ * sizeof(RadianceTerms)), size(stand_in_, 4 * points_);
   static_assert(sizeof(AirLinks::End) == 8, "the shaders read it as two words");
   link_ends_view_ = make_buffer_texture(gl, link_ends_, GL_RG32UI);
   first_place_view_ = make_buffer_texture(gl, first_place_, GL_R32UI);
@@ -109,7 +110,7 @@ LampFogPass::LampFogPass(const Gl& gl, const FogLight& fog)
 void LampFogPass::run(const GlProgram& program, GLuint groups_x, GLuint groups_y) {
   gl_.UseProgram(program.name());
   gl_.DispatchCompute(groups_x, groups_y, 1);
-  gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+  gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 void LampFogPass::find(const FogLight& fog, const Lamp& lamp) {
@@ -123,7 +124,8 @@ void LampFogPass::find(const FogLight& fog, const Lamp& lamp) {
   const auto bind = [&](std::initializer_list<std::pair<GLuint, GLuint>> buffers) {
     for (const auto& [binding, buffer] : buffers) gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
   };
-  const GlTexture* views[] = {&radiance_view_, &link_ends_view_, &first_place_view_, &seen_corners_view_, &nearest_view_, &hidden_view_};
+  const GlTexture* views[] = {&radiance_view_,     &link_ends_view_, &first_place_view_,
+                              &seen_corners_view_, &nearest_view_,   &hidden_view_};
   for (GLuint unit = 0; unit < 6; ++unit) gl_.BindTextureUnit(unit, views[unit]->name());
   bind({{3, grid_.name()}, {4, state_.name()}, {5, air_points_.name()}, {6, ends_in_.name()}, {7, air_in_.name()}});
   const GLuint groups = (points_ + kPointsAGroup - 1) / kPointsAGroup, directions = GLuint(kDirections);

@@ -48,7 +48,12 @@ void set(float (&out)[4], const Vec3f& v, float last) { out[0] = v.x, out[1] = v
 GlProgram make_lamp_program(const Gl& gl, const char* file, const ShaderDefines& defines = {}) {
   GlProgram program = make_compute_program(gl, std::string("lamp_") + file + ".comp.glsl", defines);
   bind_samplers(gl, program,
-                {{"visibility", 0}, {"triangle_table", 1}, {"light_table", 2}, {"piece_rows", 3}, {"lamp_terms", 4}, {"lamp_stand_in", 5}});
+                {{"visibility", 0},
+                 {"triangle_table", 1},
+                 {"light_table", 2},
+                 {"piece_rows", 3},
+                 {"lamp_terms", 4},
+                 {"lamp_stand_in", 5}});
   return program;
 }
 
@@ -89,14 +94,16 @@ LampPass::LampPass(const Gl& gl, const PreparedScene& scene, const GlGeometry& g
   const std::size_t bits = (point_count_ / 32 + 1) * 4, groups = point_count_ / kGroup + 1 + kGroupsARow;
   radiance_ = make_room(gl, point_count_ * 16), once_ = make_room(gl, point_count_ * 16);
   arrived_ = make_room(gl, point_count_ * 32), sums_ = make_room(gl, groups * 8), share_ = make_room(gl, 16);
-  lit_ = make_room(gl, bits), point_shows_ = make_room(gl, bits), node_shows_ = make_room(gl, (scene.light_nodes / 32 + 1) * 4);
+  lit_ = make_room(gl, bits), point_shows_ = make_room(gl, bits);
+  node_shows_ = make_room(gl, (scene.light_nodes / 32 + 1) * 4);
   node_list_ = make_room(gl, kListHead + scene.light_nodes * 8), point_list_ = make_room(gl, kListHead + point_count_ * 4);
   shown_ = make_room(gl, scene.light_nodes * sizeof(BakedLight));
   shown_view_ = make_buffer_texture(gl, shown_, GL_RG32UI);
   check_gl(gl, "preparing the lamp's light");
 }
 
-void LampPass::give_scene(const PreparedScene& scene, const BakeLinks& links, const std::vector<std::uint32_t>& first_point) {
+void LampPass::give_scene(const PreparedScene& scene, const BakeLinks& links,
+                          const std::vector<std::uint32_t>& first_point) {
   std::vector<PointEntry> points(point_count_);
   for (std::size_t i = 0; i < point_count_; ++i)
     points[i] = {links.places[i].position, pack_normal(links.places[i].normal), links.albedos[i], links.stand_ins()[i]};
@@ -140,7 +147,7 @@ void LampPass::run(const GlProgram& program, std::initializer_list<GLuint> buffe
   if (groups == 0) return;
   gl_.UseProgram(program.name());
   gl_.DispatchCompute(row, (groups + row - 1) / row, 1);
-  gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+  gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 void LampPass::run(const GlProgram& program, std::initializer_list<GLuint> buffers, const GlBuffer& list) {
@@ -149,13 +156,14 @@ void LampPass::run(const GlProgram& program, std::initializer_list<GLuint> buffe
   gl_.UseProgram(program.name());
   gl_.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, list.name());
   gl_.DispatchComputeIndirect(0);
-  gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+  gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 void LampPass::give_aim() {
   AimBlock aim;
   const PlacedLamp& lamp = reach_->lamp();
-  set(aim.place, lamp.position, reach_->extinction()), set(aim.axis, lamp.axis, lamp.cone), set(aim.intensity, lamp.intensity, 0);
+  set(aim.place, lamp.position, reach_->extinction()), set(aim.axis, lamp.axis, lamp.cone);
+  set(aim.intensity, lamp.intensity, 0);
   std::vector<SeenEntry> seen;
   std::vector<std::uint32_t> seen_pieces(scene_.placed.size() / 32 + 1);
   seen_points_ = 0;
@@ -179,7 +187,8 @@ void LampPass::give_aim() {
 
 void LampPass::pass_on() {
   clear(gl_, lit_);
-  const GLuint aim = aim_.name(), seen = seen_.name(), points = points_.name(), radiance = radiance_.name(), lit = lit_.name();
+  const GLuint aim = aim_.name(), seen = seen_.name(), points = points_.name();
+  const GLuint radiance = radiance_.name(), lit = lit_.name();
   run(programs_.send, {aim, seen, map_.name(), points, radiance, lit}, seen_points_);
   run(programs_.once, {aim, seen, links_.name(), points, radiance, lit, once_.name(), sums_.name()}, seen_points_);
   run(programs_.share, {aim, seen, once_.name(), points, radiance, lit, share_.name(), sums_.name()}, 1);
@@ -194,7 +203,8 @@ void LampPass::restore() {
   } else if (shows_) {
     gl_.BindTextureUnit(2, geometry_.light_view.name());
     run(programs_.restore,
-        {aim_.name(), seen_.name(), pieces_.name(), nodes_.name(), node_points_.name(), node_list_.name(), arrived_.name(), shown_.name()},
+        {aim_.name(), seen_.name(), pieces_.name(), nodes_.name(), node_points_.name(), node_list_.name(), arrived_.name(),
+         shown_.name()},
         node_list_);
   }
   shows_ = false;
@@ -225,11 +235,13 @@ const GlTexture& LampPass::light_of(const GlTexture& ids, int width, int height)
   const GLuint aim = aim_.name(), seen = seen_.name();
   mark_shown(width, height);
   run(programs_.arrive,
-      {aim, seen, links_.name(), points_.name(), radiance_.name(), lit_.name(), point_list_.name(), arrived_.name()}, point_list_);
+      {aim, seen, links_.name(), points_.name(), radiance_.name(), lit_.name(), point_list_.name(), arrived_.name()},
+      point_list_);
   gl_.BindTextureUnit(2, geometry_.light_view.name()), gl_.BindTextureUnit(3, piece_rows_view_.name());
   if (fog_shown_) gl_.BindTextureUnit(4, fog_->terms().name()), gl_.BindTextureUnit(5, fog_->stand_in().name());
   run(fog_shown_ ? programs_.nodes_in_fog : programs_.nodes,
-      {aim, seen, pieces_.name(), nodes_.name(), node_points_.name(), node_list_.name(), arrived_.name(), shown_.name()}, node_list_);
+      {aim, seen, pieces_.name(), nodes_.name(), node_points_.name(), node_list_.name(), arrived_.name(), shown_.name()},
+      node_list_);
   check_gl(gl_, "adding the lamp's light");
   return shown_view_;
 }
@@ -241,7 +253,7 @@ void LampPass::mark_shown(int width, int height) {
   for (GLuint k = 0; k < 7; ++k) gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, k, buffers[k]);
   gl_.UseProgram(programs_.shown.name());
   gl_.DispatchCompute(GLuint(width + 7) / 8, GLuint(height + 7) / 8, 1);
-  gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 }  // namespace rubble

@@ -64,12 +64,14 @@ void SunShadowPass::draw(int width, int height, const GlBuffer& pyramids, bool r
   gl_.BindImageTexture(0, numbers_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32UI);
   gl_.BindImageTexture(1, places_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32UI);
   gl_.UseProgram(use.find.name());
-  gl_.DispatchCompute(GLuint((blocks_in(width) + kGroup - 1) / kGroup), GLuint((blocks_in(height) + kGroup - 1) / kGroup), 1);
+  const auto groups = [](int blocks) { return GLuint((blocks + kGroup - 1) / kGroup); };
+  gl_.DispatchCompute(groups(blocks_in(width)), groups(blocks_in(height)), 1);
   gl_.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   gl_.BindTextureUnit(GLuint(blocks_unit_), places_.name());
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target_.name());
   gl_.UseProgram(use.draw.name());
-  gl_.ProgramUniform2i(use.draw.name(), gl_.GetUniformLocation(use.draw.name(), "size"), kColumns * kEdgeBlock, rows_ * kEdgeBlock);
+  gl_.ProgramUniform2i(use.draw.name(), gl_.GetUniformLocation(use.draw.name(), "size"), kColumns * kEdgeBlock,
+                       rows_ * kEdgeBlock);
   gl_.Viewport(0, 0, kColumns * kEdgeBlock, rows_ * kEdgeBlock);
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_CULL_FACE);

@@ -36,13 +36,15 @@ class ColourPass {
   // The exposure that the view asks for: what luminance in kcd/m2 is multiplied by.
   virtual float meter(const ViewProjection& view, const Pose& world_from_camera,
                       const SurfaceImages& surfaces, const FrameLight& light) = 0;
-  // Display colours: 4 bytes a pixel, the last unused. exposure: none: as meter() finds it.
+  // Display colours. exposure: none: as meter() finds it.
   // metered: meter() was the last call, for the same view.
   virtual void draw(const ViewProjection& view, const Pose& world_from_camera,
                     const SurfaceImages& surfaces, const FrameLight& light, std::optional<float> exposure,
                     bool metered) = 0;
-  // Returns the exposure of what was drawn.
-  virtual float read(std::vector<std::uint8_t>& rgba) = 0;
+  // What was drawn, as 3 bytes a pixel. smooth: with smooth edges (passes/antialias.h).
+  virtual void finish(const SurfaceImages& surfaces, bool smooth) = 0;
+  // Reads that. Returns the exposure of what was drawn.
+  virtual float read(std::vector<std::uint8_t>& rgb) = 0;
 
   // Radiance before exposure and tone mapping, 4 floats a pixel (R, G, B in kcd/m2).
   virtual std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,

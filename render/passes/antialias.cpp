@@ -106,4 +106,9 @@ void smooth_edges(const std::vector<std::uint8_t>& rgba, const std::vector<float
   });
 }
 
+void copy_colours(const std::vector<std::uint8_t>& rgba, std::vector<std::uint8_t>& rgb) {
+  rgb.resize(rgba.size() / 4 * 3);
+  for (std::size_t i = 0; i < rgba.size() / 4; ++i) std::copy_n(&rgba[4 * i], 3, &rgb[3 * i]);
+}
+
 }  // namespace rubble

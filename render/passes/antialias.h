@@ -13,5 +13,7 @@ namespace rubble {
 // rgba: 4 bytes a pixel; depth_values: near / Z of the same pixels; rgb: gets 3 bytes a pixel.
 void smooth_edges(const std::vector<std::uint8_t>& rgba, const std::vector<float>& depth_values,
                   int width, int height, ThreadPool& pool, std::vector<std::uint8_t>& rgb);
+// The same without smoothing.
+void copy_colours(const std::vector<std::uint8_t>& rgba, std::vector<std::uint8_t>& rgb);
 
 }  // namespace rubble

@@ -23,12 +23,10 @@ ReferenceOptions reference_options(const RenderOptions& o, std::uint64_t seed) {
   return out;
 }
 
-// The first three of every `channels` values.
-template <typename T>
-std::vector<T> three_of(const std::vector<T>& values, std::size_t channels) {
-  std::vector<T> out(values.size() / channels * 3);
-  for (std::size_t i = 0; i < values.size() / channels; ++i)
-    for (std::size_t c = 0; c < 3; ++c) out[i * 3 + c] = values[i * channels + c];
+std::vector<float> first_three_of_four(const std::vector<float>& values) {
+  std::vector<float> out(values.size() / 4 * 3);
+  for (std::size_t i = 0; i < values.size() / 4; ++i)
+    for (std::size_t c = 0; c < 3; ++c) out[i * 3 + c] = values[i * 4 + c];
   return out;
 }
 
@@ -128,13 +126,14 @@ float ColourDrawer::expose(const MeteredImage& metered) const {
   return find_exposure(options, metered);
 }
 
-void ColourDrawer::draw_traced(const ViewRays& view, std::optional<float> exposure,
-                               std::vector<std::uint8_t>& rgba, ColourImage& image) const {
+void ColourDrawer::draw_traced(const ViewRays& view, std::optional<float> exposure, ColourImage& image) const {
+  const Stopwatch start;
   const Intrinsics& k = view.intrinsics;
   const std::vector<float> radiance = trace(view);
   const Vec3f gains = white_balance(scene_.light);
   image.exposure = exposure ? *exposure : expose(meter_image(radiance, k.width, k.height, gains));
-  rgba = develop_image(radiance, k.width, k.height, gains, image.exposure);
+  copy_colours(develop_image(radiance, k.width, k.height, gains, image.exposure), image.rgb);
+  image.resolve = start.time();
 }
 
 void ColourDrawer::light_shown(DrawnSurfaces& surfaces) {
@@ -149,8 +148,7 @@ void ColourDrawer::set_bounce(bool shows, DrawnSurfaces& surfaces) {
 }
 
 void ColourDrawer::draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces,
-                               std::optional<float> exposure, std::vector<std::uint8_t>& rgba,
-                               ColourImage& image) {
+                               std::optional<float> exposure, ColourImage& image) {
   const Stopwatch start;
   const ViewProjection projection = projection_of(view);
   const SurfaceImages images = surfaces.images();
@@ -174,8 +172,11 @@ void ColourDrawer::draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces,
   }
   resolve_->draw(projection, view.world_from_camera, images, light, exposure, metered);
   image.resolve = start.time();
+  const Stopwatch finish;
+  resolve_->finish(images, scene_.options.antialias);
+  image.finish = finish.time();
   const Stopwatch read;
-  image.exposure = resolve_->read(rgba);
+  image.exposure = resolve_->read(image.rgb);
   image.read = read.time();
 }
 
@@ -183,21 +184,10 @@ ColourImage ColourDrawer::draw(const ViewRays& view, DrawnSurfaces& surfaces,
                                std::optional<float> exposure) {
   scene_.move_to(view.stamp_ns);
   ColourImage image;
-  std::vector<std::uint8_t> rgba;
-  if (reference_) {
-    const Stopwatch start;
-    draw_traced(view, exposure, rgba, image);
-    image.resolve = start.time();
-  } else {
-    draw_shaded(view, surfaces, exposure, rgba, image);
-  }
-  const Stopwatch finish;
-  const Intrinsics& k = view.intrinsics;
-  if (scene_.options.antialias && !reference_)
-    smooth_edges(rgba, surfaces.depth_values(), k.width, k.height, scene_.pool, image.rgb);
+  if (reference_)
+    draw_traced(view, exposure, image);
   else
-    image.rgb = three_of(rgba, 4);
-  image.finish = finish.time();
+    draw_shaded(view, surfaces, exposure, image);
   return image;
 }
 
@@ -209,8 +199,7 @@ std::vector<float> ColourDrawer::draw_radiance(const ViewRays& view, DrawnSurfac
   scene_.light_air(view.stamp_ns);
   set_bounce(scene_.aim_lamp(view.lamp_bearer(), view.stamp_ns), surfaces);
   const FrameLight light = light_view(view, surfaces, true);
-  return three_of(resolve_->draw_linear(projection_of(view), view.world_from_camera, images, light),
-                  4);
+  return first_three_of_four(resolve_->draw_linear(projection_of(view), view.world_from_camera, images, light));
 }
 
 }  // namespace rubble

@@ -39,12 +39,10 @@ class ColourDrawer {
   // drops_drawn: as AirVolume::prepare().
   FrameLight light_view(const ViewRays& view, DrawnSurfaces& surfaces, bool drops_drawn);
   std::vector<float> trace(const ViewRays& view) const;
-  void draw_traced(const ViewRays& view, std::optional<float> exposure,
-                   std::vector<std::uint8_t>& rgba, ColourImage& image) const;
+  void draw_traced(const ViewRays& view, std::optional<float> exposure, ColourImage& image) const;
   void light_shown(DrawnSurfaces& surfaces);             // finds the light of what shows
   void set_bounce(bool shows, DrawnSurfaces& surfaces);  // light of the lamp by way of surfaces
-  void draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces, std::optional<float> exposure,
-                   std::vector<std::uint8_t>& rgba, ColourImage& image);
+  void draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces, std::optional<float> exposure, ColourImage& image);
   float expose(const MeteredImage& metered) const;
 
   LitScene& scene_;

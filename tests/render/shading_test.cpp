@@ -13,6 +13,7 @@
 #include "render/camera/lens.h"
 #include "render/devices/gl/gl_device.h"
 #include "render/devices/software/software_device.h"
+#include "render/passes/antialias.h"
 #include "render/renderer.h"
 #include "render/shading/wide_shader.h"
 #include "tests/render/cached_options.h"
@@ -138,7 +139,36 @@ TEST_P(Shading, IsThatOfTheShadersOfGl) {
   EXPECT_LT(double(far) / double(found.size()), 0.004) << view().name;
 }
 
-// As the control of the one above: a light that is 3 % brighter is seen.
+// The card smooths what it has drawn itself.
+TEST(GlFinish, SmoothsEdgesAsTheProcessorDoes) {
+  GlDevice gl;
+  const Scene heap = make_heap(60, 4);
+  RenderOptions options = plain();
+  options.fixed_exposure = 0.05;
+  const View& view = views().front();
+  const auto draw = [&](bool antialias) {
+    options.antialias = antialias;
+    Renderer renderer(gl, heap, options);
+    RenderedView seen = renderer.view(rays_of(view));
+    return std::make_pair(seen.rgb(), seen.depth());
+  };
+  const auto [rough, depth] = draw(false);
+  std::vector<std::uint8_t> rgba, expected;
+  std::vector<float> values;
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    rgba.insert(rgba.end(), {rough[3 * i], rough[3 * i + 1], rough[3 * i + 2], 0});
+    values.push_back(std::isnan(depth[i]) ? 0.0f : kNearPlane / depth[i]);
+  }
+  ThreadPool pool(1);
+  smooth_edges(rgba, values, kWidth, kHeight, pool, expected);
+  const std::vector<std::uint8_t> found = draw(true).first;
+  std::size_t different = 0, smoothed = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) different += found[i] != expected[i], smoothed += expected[i] != rough[i];
+  EXPECT_GT(smoothed, found.size() / 100);
+  EXPECT_LE(different, 12u);  // depth has been to metres and back
+}
+
+// As the control of the one above them: a light that is 3 % brighter is seen.
 TEST(ShadingControl, SeesALittleMoreLight) {
   SoftwareDevice device;
   RenderOptions options = plain();
@@ -225,8 +255,8 @@ TEST(GlTraffic, OfAFrameIsCounted) {
   in_fog.view(at_heap).rgb();
   EXPECT_LT(gl.traffic().given - given, 1000000u);
   const std::uint64_t pixels = std::uint64_t(kWidth) * std::uint64_t(kHeight);
-  EXPECT_GE(after.taken - before.taken, 8 * pixels);
-  EXPECT_LE(after.taken - before.taken, 9 * pixels);
+  EXPECT_GE(after.taken - before.taken, 7 * pixels);
+  EXPECT_LE(after.taken - before.taken, 8 * pixels);
   by_software.view(at_heap).rgb();
   EXPECT_EQ(software.traffic().given + software.traffic().taken + software.traffic().waits, 0u);
 }

@@ -150,7 +150,7 @@ GlColourPass::GlColourPass(const Gl& gl, const GlGeometry& geometry, const GlRas
                                      {{"EXPOSURE_AT", std::to_string(kExposureAt)},
                                       {"KEY", std::to_string(kDisplayExposure.key)},
                                       {"DUSK", std::to_string(kDisplayExposure.dusk)}})),
-      colour_back_(gl),
+      rgb_(gl),
       texture_size_(patterns.front().size) {
   bind_samplers(gl, exposure_, {{"metered", 0}});
   defines_ = variant_of(light, geometry);
@@ -191,6 +191,8 @@ void GlColourPass::resize(int width, int height) {
   colour_ = make_target(gl_, GL_RGBA8, width, height);
   target_ = GlFramebuffer(gl_);
   gl_.NamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, colour_.name(), 0);
+  const std::size_t words = (std::size_t(width) * std::size_t(height) + 3) / 4 * 3;
+  give_buffer(gl_, rgb_.name(), words * 4, nullptr, GL_STREAM_READ);
   check_gl(gl_, "making the colour buffer");
 }
 
@@ -363,11 +365,25 @@ void GlColourPass::draw(const ViewProjection& view, const Pose& world_from_camer
   draw_with(0, target_, view, world_from_camera, surfaces, light, exposure, exposure && !metered);
 }
 
-float GlColourPass::read(std::vector<std::uint8_t>& rgba) {
-  rgba.resize(std::size_t(width_) * std::size_t(height_) * 4);
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
-  colour_back_.ask(width_, height_, GL_RGBA, GL_UNSIGNED_BYTE);
-  colour_back_.take(rgba.data());
+void GlColourPass::finish(const SurfaceImages& surfaces, bool smooth) {
+  constexpr GLuint kPixelsAGroup = 256, kGroupsARow = 32768;
+  GlProgram& program = finish_programs_[smooth];
+  if (!program) {
+    program = make_compute_program(gl_, "finish.comp.glsl", smooth ? ShaderDefines{{"SMOOTH", ""}} : ShaderDefines());
+    bind_samplers(gl_, program, {{"colours", 0}, {"depth_values", 1}});
+  }
+  gl_.BindTextureUnit(0, colour_.name());
+  gl_.BindTextureUnit(1, (surfaces.in_raster ? raster_.depth_texture() : depth_).name());
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, rgb_.name());
+  gl_.UseProgram(program.name());
+  const GLuint groups = (GLuint(width_) * GLuint(height_) + kPixelsAGroup - 1) / kPixelsAGroup, row = std::min(groups, kGroupsARow);
+  gl_.DispatchCompute(row, (groups + row - 1) / row, 1);
+  gl_.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+float GlColourPass::read(std::vector<std::uint8_t>& rgb) {
+  rgb.resize(std::size_t(width_) * std::size_t(height_) * 3);
+  take_buffer(gl_, rgb_.name(), 0, rgb.size(), rgb.data(), true);
   float exposure = 0;
   take_buffer(gl_, frame_block_.name(), kExposureAt * sizeof(float), sizeof exposure, &exposure, false);
   check_gl(gl_, "reading the image back");

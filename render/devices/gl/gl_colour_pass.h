@@ -31,7 +31,8 @@ class GlColourPass : public ColourPass {
   void draw(const ViewProjection& view, const Pose& world_from_camera,
             const SurfaceImages& surfaces, const FrameLight& light, std::optional<float> exposure,
             bool metered) override;
-  float read(std::vector<std::uint8_t>& rgba) override;
+  void finish(const SurfaceImages& surfaces, bool smooth) override;
+  float read(std::vector<std::uint8_t>& rgb) override;
   std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
                                  const SurfaceImages& surfaces, const FrameLight& light) override;
 
@@ -81,7 +82,8 @@ class GlColourPass : public ColourPass {
   GlTexture colour_, metered_;
   GlFramebuffer target_, meter_target_;
   GlProgram exposure_;  // of what was metered, into the block of the frame
-  GlReadback colour_back_;
+  GlProgram finish_programs_[2];  // by `smooth`
+  GlBuffer rgb_;                  // three bytes a pixel
   int width_ = 0, height_ = 0;
   int texture_size_ = 1;
 };

@@ -8,6 +8,7 @@
 #include "render/colour/view_lamp.h"
 #include "render/materials/glass.h"
 #include "render/materials/surface_appearance.h"
+#include "render/passes/antialias.h"
 #include "render/shading/mip_images.h"
 
 namespace rubble {
@@ -63,8 +64,15 @@ class SoftwareColourPass : public ColourPass {
     shade(pixels);
   }
 
-  float read(std::vector<std::uint8_t>& rgba) override {
-    rgba.swap(display_);
+  void finish(const SurfaceImages& surfaces, bool smooth) override {
+    if (smooth)
+      smooth_edges(display_, *surfaces.depth_values, data_.width, data_.height, pool_, rgb_);
+    else
+      copy_colours(display_, rgb_);
+  }
+
+  float read(std::vector<std::uint8_t>& rgb) override {
+    rgb.swap(rgb_);
     return exposure_;
   }
 
@@ -205,7 +213,7 @@ class SoftwareColourPass : public ColourPass {
   OpennessGrids openness_;
   ShadingData data_;
   std::vector<float> edge_blocks_;
-  std::vector<std::uint8_t> display_;
+  std::vector<std::uint8_t> display_, rgb_;  // four and three bytes a pixel
   float exposure_ = 0;  // of these
   std::vector<std::vector<float>> behind_;  // each glass, four a pixel, as ShadingData::behind
 };

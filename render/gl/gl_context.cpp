@@ -41,7 +41,8 @@ bool has_extension(const Gl& gl, const std::string& name) {
   GLint count = 0;
   gl.GetIntegerv(GL_NUM_EXTENSIONS, &count);
   for (GLint i = 0; i < count; ++i)
-    if (name == reinterpret_cast<const char*>(gl.GetStringi(GL_EXTENSIONS, GLuint(i)))) return true;
+    if (const GLubyte* found = gl.GetStringi(GL_EXTENSIONS, GLuint(i)))
+      if (name == reinterpret_cast<const char*>(found)) return true;
   return false;
 }
 

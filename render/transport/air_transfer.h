@@ -7,17 +7,10 @@
 
 #include "kernel/base/parallel.h"
 #include "render/lighting/radiance_grid.h"
-#include "render/media/medium.h"
-#include "render/transport/air_links.h"
+#include "render/media/air_matter.h"
+#include "render/media/air_links.h"
 
 namespace rubble {
-
-// The mean air at the points of a grid, without billows and puffs, as it turns light: see forward_share().
-struct AirMatter {
-  std::vector<float> extinction;                      // unit: 1/m
-  std::vector<std::array<float, kOrders>> scattered;  // of what it takes, what it gives back of each order
-};
-AirMatter turning_matter(const Air& air, const AirGrid& grid);
 
 class AirTransfer {
  public:

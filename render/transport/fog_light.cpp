@@ -12,6 +12,8 @@ namespace rubble {
 
 namespace {
 
+constexpr double kLampTolerance = 0.02;
+constexpr int kLampIterations = 12;
 constexpr float kMostFactor = 4;  // of what fog does to baked light
 constexpr int kPlaces = 32;       // of a cell, at which the lights are looked for
 constexpr float kFromAround = 0.1f;  // share of light from all around in what a surface is asked for
@@ -281,6 +283,13 @@ void FogLight::set_lamp(const LampReach& reach, const Radiance& radiance) {
   });
   lamp_ = transfer_.solve(matter_, sources, pool_);
   add_up();
+}
+
+LampAir FogLight::air_of_device() const {
+  LampAir out;
+  out.links = &transfer_.links(), out.matter = &matter_, out.matter_version = matter_version_, out.off = usual_off();
+  out.tolerance = float(kLampTolerance), out.most_iterations = kLampIterations;
+  return out;
 }
 
 void FogLight::put_lamp_out() {

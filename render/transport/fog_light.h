@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/device/device_lamp.h"
 #include "render/lighting/bake.h"
 #include "render/transport/air_transfer.h"
 #include "render/transport/lamp_reach.h"
@@ -35,14 +36,7 @@ class FogLight {
 
   // All that comes to points of the air but beams.
   const RadianceGrid& field() const { return field_; }
-  // For a device that finds the lamp's light in the air itself. version: another number for other matter.
-  const AirLinks& links() const { return transfer_.links(); }
-  const AirMatter& matter() const { return matter_; }
-  std::uint64_t matter_version() const { return matter_version_; }
-  float usual_off() const;  // from surfaces, where the air's light is asked for; unit: m
-  // Of the lamp's light: by which change of all light its iteration ends, and after how many at most.
-  static constexpr double kLampTolerance = 0.02;
-  static constexpr int kLampIterations = 12;
+  LampAir air_of_device() const;  // for one that finds the lamp's light in the air itself; refers to this
 
  private:
   struct Place {       // of a bake point: where the air's light is asked for
@@ -59,6 +53,7 @@ class FogLight {
   void find_reached(const RayScene& rays);
   void find_direct(const Air* air, AirTransfer::Sources& out) const;
   void find_open();
+  float usual_off() const;  // from surfaces; unit: m
   Place place_of_mover(const Vec3f& surface, const Vec3f& normal) const;  // as what rests sees it
   Change change_at(const Vec3f& surface, const Vec3f& normal, const Place& place) const;
   void add_up();

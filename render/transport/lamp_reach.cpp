@@ -66,6 +66,14 @@ bool LampReach::may_see(const PlacedMesh& piece) const {
   return shines_on(way * (1 / away), away - piece.radius);
 }
 
+LampAim LampReach::aim_of_device() const {
+  LampAim out;
+  out.position = lamp_.position, out.axis = lamp_.axis, out.intensity = lamp_.intensity, out.cone = lamp_.cone;
+  out.extinction = extinction_, out.map = &map_, out.seen = &seen_, out.map_side = kSide;
+  out.reach = kReach, out.fade = kFade, out.near = kNear, out.slack = kSlack;
+  return out;
+}
+
 float LampReach::open_share() const {
   return float(std::count(map_.begin(), map_.end(), kReach)) / float(map_.size());
 }

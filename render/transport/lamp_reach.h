@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernel/base/parallel.h"
+#include "render/device/device_lamp.h"
 #include "render/geometry/scene_rays.h"
 #include "render/transport/scene_lights.h"
 
@@ -32,6 +33,7 @@ class LampReach {
   bool shines_on(const Vec3f& way, float away) const {  // at the end of that way from the lamp
     return away < distance_towards(way) * (1 + kSlack) + kNear;
   }
+  LampAim aim_of_device() const;  // refers to this
   // The share of directions in which nothing lies within reach of the lamp.
   float open_share() const;
   // Of light so far from the lamp.

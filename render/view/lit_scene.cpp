@@ -235,7 +235,10 @@ bool LitScene::bounce_shows(float exposure) const {
 bool LitScene::lamp_is_in_the_open() const { return lamp_bounce_ && !lamp_fog_ && lamp_reach_->open_share() > kOpen; }
 
 void LitScene::add_bounce(const std::function<std::vector<LampBounce::Shown>()>& shown) {
-  if (device_lamp_) return device_lamp_->light(*lamp_reach_, lamp_fog_);
+  if (device_lamp_) {
+    const LampAir air = lamp_fog_ ? lamp_fog_->air_of_device() : LampAir();
+    return device_lamp_->light(lamp_reach_->aim_of_device(), lamp_fog_ ? &air : nullptr);
+  }
   // What was shown before is these nodes, or what was lit the time before.
   show_light(lamp_bounce_->add_to(nodes(), light_version_, shown(), lamp_fog_), &lamp_bounce_->changed());
   lit_by_lamp_ = true;

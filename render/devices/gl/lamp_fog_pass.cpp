@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/gl/shader.h"
+#include "render/lighting/lighting.h"
 
 namespace rubble {
 
@@ -27,7 +28,8 @@ struct GridBlock {
 };
 static_assert(kHarmonics == 16, "as in the shaders");
 
-GridBlock make_block(const AirLinks& links) {
+GridBlock make_block(const LampAir& air, float reach) {
+  const AirLinks& links = *air.links;
   GridBlock block;
   for (int i = 0; i < 3; ++i) {
     block.origin[i] = links.grid.origin[i], block.cell[i] = links.grid.cell[i];
@@ -39,7 +41,7 @@ GridBlock make_block(const AirLinks& links) {
     const Harmonics y = harmonics_of(links.directions[k]);
     std::copy(y.begin(), y.end(), block.harmonics[k]);
   }
-  block.light_reach = kLightReach, block.lamp_reach = LampReach::kReach, block.tolerance = float(FogLight::kLampTolerance);
+  block.light_reach = kLightReach, block.lamp_reach = reach, block.tolerance = air.tolerance;
   return block;
 }
 
@@ -55,10 +57,10 @@ std::vector<float> table_of(const AirMatter& matter) {
 
 }  // namespace
 
-LampFogPass::LampFogPass(const Gl& gl, const FogLight& fog)
+LampFogPass::LampFogPass(const Gl& gl, const LampAir& air, float reach)
     : gl_(gl),
-      points_(std::uint32_t(fog.links().grid.count())),
-      grid_(make_buffer(gl, std::vector<GridBlock>{make_block(fog.links())})),
+      points_(std::uint32_t(air.links->grid.count())),
+      grid_(make_buffer(gl, std::vector<GridBlock>{make_block(air, reach)})),
       state_(gl),
       air_points_(gl),
       matter_(gl),
@@ -68,11 +70,11 @@ LampFogPass::LampFogPass(const Gl& gl, const FogLight& fog)
       air_in_(gl),
       terms_(gl),
       stand_in_(gl),
-      link_ends_(make_buffer(gl, fog.links().ends)),
-      first_place_(make_buffer(gl, fog.links().first_place)),
-      seen_corners_(make_buffer(gl, fog.links().seen)),
-      nearest_(make_buffer(gl, fog.links().nearest)),
-      hidden_(make_buffer(gl, fog.links().hidden)) {
+      link_ends_(make_buffer(gl, air.links->ends)),
+      first_place_(make_buffer(gl, air.links->first_place)),
+      seen_corners_(make_buffer(gl, air.links->seen)),
+      nearest_(make_buffer(gl, air.links->nearest)),
+      hidden_(make_buffer(gl, air.links->hidden)) {
   const auto size = [&](const GlBuffer& buffer, std::size_t bytes) {
     give_buffer(gl_, buffer.name(), std::max<std::size_t>(bytes, 16), nullptr, GL_DYNAMIC_COPY);
   };
@@ -113,10 +115,10 @@ void LampFogPass::run(const GlProgram& program, GLuint groups_x, GLuint groups_y
   gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-void LampFogPass::find(const FogLight& fog, const Lamp& lamp) {
-  if (matter_version_ != fog.matter_version()) {
-    matter_version_ = fog.matter_version();
-    const std::vector<float> table = table_of(fog.matter());
+void LampFogPass::find(const LampAir& air, const Lamp& lamp) {
+  if (matter_version_ != air.matter_version) {
+    matter_version_ = air.matter_version;
+    const std::vector<float> table = table_of(*air.matter);
     give_buffer(gl_, matter_.name(), table.size() * sizeof(float), table.data(), GL_DYNAMIC_DRAW);
   }
   if (!radiance_view_) radiance_view_ = make_buffer_texture(gl_, lamp.radiance_buffer, GL_RGBA32F);
@@ -141,7 +143,7 @@ void LampFogPass::find(const FogLight& fog, const Lamp& lamp) {
     run(programs_.check, 1);
   };
   gather();
-  for (int n = 0; n < FogLight::kLampIterations; ++n) {
+  for (int n = 0; n < air.most_iterations; ++n) {
     bind({{1, matter_.name()}, {2, emitted_.name()}});
     run(programs_.emit, groups, directions);
     bind({{1, lamp.lit}});

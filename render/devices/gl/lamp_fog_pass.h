@@ -6,14 +6,14 @@
 #include <initializer_list>
 
 #include "render/gl/gl_exchange.h"
-#include "render/transport/fog_light.h"
+#include "render/device/device_lamp.h"
 
 namespace rubble {
 
 class LampFogPass {
  public:
-  // Of this scene's air; `fog` is not kept.
-  LampFogPass(const Gl& gl, const FogLight& fog);
+  // Of these links alone; `air` is not kept. reach: of the lamp; unit: m
+  LampFogPass(const Gl& gl, const LampAir& air, float reach);
 
   struct Lamp {
     GLuint aim, seen, map;   // as in shaders/lamp_words.glsl and lamp_map.glsl
@@ -21,7 +21,7 @@ class LampFogPass {
     const GlBuffer& radiance_buffer;
     const GlBuffer& frame;   // with the mean fog
   };
-  void find(const FogLight& fog, const Lamp& lamp);
+  void find(const LampAir& air, const Lamp& lamp);
 
   // Sixteen colours a point of the grid: by the air, then of all points by surfaces.
   const GlTexture& terms() const { return terms_view_; }

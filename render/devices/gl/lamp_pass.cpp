@@ -20,8 +20,8 @@ constexpr std::size_t kListHead = 16;  // of the lists in shaders/lamp_shown.com
 struct AimBlock {
   float place[4] = {}, axis[4] = {}, intensity[4] = {};
   std::uint32_t seen_count = 0, point_count = 0, links_a_point = 0, unused_a = 0;
-  float reach = LampReach::kReach, fade = LampReach::kFade, near = LampReach::kNear, slack = LampReach::kSlack;
-  std::int32_t map_side = LampReach::kSide;
+  float reach = 0, fade = 0, near = 0, slack = 0;
+  std::int32_t map_side = 0;
   float air_off = 0, unused[2] = {};
   float air_origin[4] = {}, air_cell[4] = {};
   std::int32_t air_size[4] = {};
@@ -134,11 +134,13 @@ void LampPass::give_scene(const PreparedScene& scene, const BakeLinks& links,
   piece_rows_view_ = make_buffer_texture(gl_, piece_rows_, GL_RGBA32F);
 }
 
-void LampPass::light(const LampReach& reach, const FogLight* fog) {
-  reach_ = &reach, fog_light_ = fog, pending_ = true;
+void LampPass::light(const LampAim& aim, const LampAir* air) {
+  lit_by_ = aim, pending_ = true;
+  air_.reset();
+  if (air) air_ = *air;
 }
 
-void LampPass::put_out() { reach_ = nullptr, pending_ = false; }
+void LampPass::put_out() { lit_by_.reset(), pending_ = false; }
 
 void LampPass::run(const GlProgram& program, std::initializer_list<GLuint> buffers, std::uint32_t count) {
   GLuint binding = 0;
@@ -161,28 +163,28 @@ void LampPass::run(const GlProgram& program, std::initializer_list<GLuint> buffe
 
 void LampPass::give_aim() {
   AimBlock aim;
-  const PlacedLamp& lamp = reach_->lamp();
-  set(aim.place, lamp.position, reach_->extinction()), set(aim.axis, lamp.axis, lamp.cone);
-  set(aim.intensity, lamp.intensity, 0);
+  const LampAim& lamp = *lit_by_;
+  set(aim.place, lamp.position, lamp.extinction), set(aim.axis, lamp.axis, lamp.cone), set(aim.intensity, lamp.intensity, 0);
+  aim.reach = lamp.reach, aim.fade = lamp.fade, aim.near = lamp.near, aim.slack = lamp.slack, aim.map_side = lamp.map_side;
   std::vector<SeenEntry> seen;
   std::vector<std::uint32_t> seen_pieces(scene_.placed.size() / 32 + 1);
   seen_points_ = 0;
-  for (const std::uint32_t piece : reach_->seen()) {
+  for (const std::uint32_t piece : *lamp.seen) {
     seen.push_back({first_point_[piece], seen_points_});
     seen_pieces[piece / 32] |= 1u << piece % 32;
     seen_points_ += std::uint32_t(scene_.meshes[scene_.placed[piece].mesh].bake_points.size());
   }
   aim.seen_count = std::uint32_t(seen.size()), aim.point_count = seen_points_, aim.links_a_point = links_a_point_;
-  if (fog_light_) {
-    const AirGrid& grid = fog_light_->links().grid;
-    aim.air_off = fog_light_->usual_off();
+  if (air_) {
+    const AirGrid& grid = air_->links->grid;
+    aim.air_off = air_->off;
     set(aim.air_origin, grid.origin, 0), set(aim.air_cell, grid.cell, 0);
     for (std::size_t i = 0; i < 3; ++i) aim.air_size[i] = grid.size[i];
   }
   give_buffer(gl_, aim_.name(), sizeof aim, &aim, GL_STREAM_DRAW);
   if (!seen.empty()) give_buffer(gl_, seen_.name(), seen.size() * sizeof(SeenEntry), seen.data(), GL_STREAM_DRAW);
   give_buffer(gl_, seen_pieces_.name(), seen_pieces.size() * 4, seen_pieces.data(), GL_STREAM_DRAW);
-  give_buffer(gl_, map_.name(), reach_->map().size() * sizeof(float), reach_->map().data(), GL_STREAM_DRAW);
+  give_buffer(gl_, map_.name(), lamp.map->size() * sizeof(float), lamp.map->data(), GL_STREAM_DRAW);
 }
 
 void LampPass::pass_on() {
@@ -217,9 +219,9 @@ void LampPass::find(const GlBuffer& frame) {
   give_aim();
   pass_on();
   fog_shown_ = nullptr;
-  if (fog_light_) {
-    if (!fog_) fog_ = std::make_unique<LampFogPass>(gl_, *fog_light_);
-    fog_->find(*fog_light_, {aim_.name(), seen_.name(), map_.name(), radiance_.name(), lit_.name(), radiance_, frame});
+  if (air_) {
+    if (!fog_) fog_ = std::make_unique<LampFogPass>(gl_, *air_, lit_by_->reach);
+    fog_->find(*air_, {aim_.name(), seen_.name(), map_.name(), radiance_.name(), lit_.name(), radiance_, frame});
     fog_shown_ = fog_.get();
   }
   check_gl(gl_, "finding the lamp's light");

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "render/device/device_lamp.h"
@@ -20,14 +21,14 @@ class LampPass : public DeviceLamp {
   LampPass(const Gl& gl, const PreparedScene& scene, const GlGeometry& geometry, const BakeLinks& links,
            const std::vector<std::uint32_t>& first_point);
 
-  void light(const LampReach& reach, const FogLight* fog) override;
+  void light(const LampAim& aim, const LampAir* air) override;
   void put_out() override;
 
   // Finds what is asked for and not yet found. frame: the buffer of the FrameBlock of the picture.
   void find(const GlBuffer& frame);
   // Of a picture by its numbers of triangles, as GlRaster::id_texture(): light at all nodes that it shows.
   const GlTexture& light_of(const GlTexture& ids, int width, int height);
-  bool is_lit() const { return reach_ != nullptr; }
+  bool is_lit() const { return lit_by_.has_value(); }
   // What the air scatters of it; null: nobody looks for that.
   const LampFogPass* fog() const { return is_lit() ? fog_shown_ : nullptr; }
 
@@ -61,8 +62,8 @@ class LampPass : public DeviceLamp {
   std::uint32_t seen_points_ = 0;
   std::uint64_t base_version_ = 0;  // of the light that shown_ is made of; 0: none
   bool shows_ = false;              // some nodes of shown_ have the lamp's light
-  const LampReach* reach_ = nullptr;  // null: the lamp is out
-  const FogLight* fog_light_ = nullptr;
+  std::optional<LampAim> lit_by_;  // none: the lamp is out
+  std::optional<LampAir> air_;     // none: its light is not looked for there
   bool pending_ = false;
   std::unique_ptr<LampFogPass> fog_;  // made when it is first needed
   const LampFogPass* fog_shown_ = nullptr;

@@ -1,4 +1,4 @@
-#include "render/transport/air_links.h"
+#include "render/media/air_links.h"
 
 #include <algorithm>
 #include <array>

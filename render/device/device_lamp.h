@@ -1,5 +1,5 @@
-// The light of the camera's lamp by way of surfaces and fog, where a device finds it itself: what transport/lamp_bounce.h and
-// transport/fog_light.h find on the processor.
+// The light of the camera's lamp by way of surfaces and fog, where a device finds it itself: what transport/lamp_bounce.h
+// and transport/fog_light.h find on the processor.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +36,8 @@ class DeviceLamp {
  public:
   virtual ~DeviceLamp() = default;
 
-  // For all pictures from now on, in place of what was there. air: gets that light, too; null: it is clear, or nobody would see
-  // it.
+  // For all pictures from now on, in place of what was there. air: gets that light, too; null: it is clear, or nobody
+  // would see it.
   virtual void light(const LampAim& aim, const LampAir* air) = 0;
   virtual void put_out() = 0;
 };

@@ -111,7 +111,7 @@ struct Gl {
 #define RUBBLE_GL_MEMBER(name, upper) PFNGL##upper##PROC name = nullptr;
   RUBBLE_GL_FUNCTIONS(RUBBLE_GL_MEMBER)
 #undef RUBBLE_GL_MEMBER
-  // Null: the driver has no GL_ARB_indirect_parameters, which OpenGL has from 4.6 on.
+  // Of GL_ARB_indirect_parameters, which OpenGL has from 4.6 on.
   PFNGLMULTIDRAWELEMENTSINDIRECTCOUNTARBPROC MultiDrawElementsIndirectCount = nullptr;
   GlTraffic* traffic = nullptr;  // never null in a context; counted by gl_traffic.h
 };

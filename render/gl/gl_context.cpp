@@ -91,9 +91,8 @@ std::string GlContext::State::load_functions() {
   if (!gl.name) return "the driver has no gl" #name;
   RUBBLE_GL_FUNCTIONS(RUBBLE_GL_LOAD)
 #undef RUBBLE_GL_LOAD
-  if (has_extension(gl, "GL_ARB_indirect_parameters"))
-    gl.MultiDrawElementsIndirectCount = reinterpret_cast<PFNGLMULTIDRAWELEMENTSINDIRECTCOUNTARBPROC>(
-        egl.GetProcAddress("glMultiDrawElementsIndirectCountARB"));
+  gl.MultiDrawElementsIndirectCount = reinterpret_cast<PFNGLMULTIDRAWELEMENTSINDIRECTCOUNTARBPROC>(
+      egl.GetProcAddress("glMultiDrawElementsIndirectCountARB"));
   const auto text = [&](GLenum what) {
     const GLubyte* s = gl.GetString(what);
     return std::string(s ? reinterpret_cast<const char*>(s) : "");
@@ -112,6 +111,9 @@ std::string GlContext::State::read_limits() {
   gl.GetIntegerv(GL_MINOR_VERSION, &minor);
   if (major * 10 + minor < 45)
     return "OpenGL 4.5 is needed, the driver gives \"" + info.version + "\"";
+  constexpr const char* kIndirect = "GL_ARB_indirect_parameters";
+  if (!has_extension(gl, kIndirect) || !gl.MultiDrawElementsIndirectCount)
+    return std::string("the driver has no ") + kIndirect + ", which OpenGL has from 4.6 on";
   for (const NamedLimit& limit : kLimits) {
     GLint value = 0;
     gl.GetIntegerv(limit.code, &value);

@@ -31,8 +31,9 @@ class TriangleRaster {
   // first. False: it does not do that.
   virtual bool draw_what_shows(const std::vector<DrawCandidate>& candidates) { return (void)candidates, false; }
   virtual std::size_t read_triangles() const { return 0; }  // that it drew then; a device is waited for
-  // near / Z (0: nothing) of what was drawn since begin(), rows from the top; good enough to cull by.
-  virtual const std::vector<float>& depth_so_far() = 0;
+  // near / Z (0: nothing) of what was drawn since begin(), rows from the top; good enough to cull by. Not to be asked of one
+  // that draws what shows.
+  virtual const std::vector<float>& depth_so_far() { return depth_values(); }
   // Ends the image: from now on what follows is there, until the next begin().
   virtual void finish() = 0;
 

@@ -52,6 +52,7 @@ INSTANTIATE_TEST_SUITE_P(
         Breakage{"no_current", {"cannot make the context current"}},
         Breakage{"no_function", {"the driver has no glClipControl"}},
         Breakage{"old_gl", {"OpenGL 4.5 is needed, the driver gives \"3.3 fake\""}},
+        Breakage{"no_extension", {"the driver has no GL_ARB_indirect_parameters, which OpenGL has from 4.6 on"}},
         Breakage{"small", {"texture size: at least 4096 are needed, the driver has 1024"}}),
     [](const auto& stage) { return std::string(stage.param.stage); });
 

@@ -1,5 +1,6 @@
 /* A libEGL that breaks where FAKE_EGL says, for the tests of messages: no_devices, no_display,
-   no_initialize, no_surfaceless, no_desktop_gl, no_context, no_current, no_function, old_gl, small.
+   no_initialize, no_surfaceless, no_desktop_gl, no_context, no_current, no_function, old_gl, no_extension,
+   small.
    With any other value everything works up to the first drawing. */
 #include <stdlib.h>
 #include <string.h>
@@ -68,6 +69,10 @@ static const unsigned char* get_string(unsigned name) {
     return (const unsigned char*)(breaks_at("old_gl") ? "3.3 fake" : "4.5 fake");
   return (const unsigned char*)"fake";
 }
+static const unsigned char* get_string_i(unsigned name, unsigned number) {
+  (void)name, (void)number;
+  return (const unsigned char*)(breaks_at("no_extension") ? "GL_fake" : "GL_ARB_indirect_parameters");
+}
 static void get_integer(unsigned name, int* value) {
   *value = 65536;
   if (name == 0x821B) *value = breaks_at("old_gl") ? 3 : 4; /* GL_MAJOR_VERSION */
@@ -79,6 +84,7 @@ void* eglGetProcAddress(const char* name) {
   if (!strcmp(name, "eglQueryDevicesEXT")) return (void*)query_devices;
   if (!strcmp(name, "eglQueryDeviceStringEXT")) return (void*)query_device_string;
   if (!strcmp(name, "glGetString")) return (void*)get_string;
+  if (!strcmp(name, "glGetStringi")) return (void*)get_string_i;
   if (!strcmp(name, "glGetIntegerv")) return (void*)get_integer;
   if (!strcmp(name, "glClipControl") && breaks_at("no_function")) return 0;
   return (void*)nothing;

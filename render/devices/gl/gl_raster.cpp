@@ -59,7 +59,6 @@ void GlRaster::prepare_to_draw() {
 }
 
 bool GlRaster::draw_what_shows(const std::vector<DrawCandidate>& candidates) {
-  if (!gl_.MultiDrawElementsIndirectCount) return false;
   if (!cull_) cull_ = std::make_unique<CullPass>(gl_, scene_, geometry_);
   list_.clear();
   for (const DrawCandidate& candidate : candidates) add_record(candidate.placed);
@@ -79,12 +78,6 @@ void GlRaster::draw(const std::vector<ClusterRun>& runs) {
     add_run(runs[i]);
   }
   list_.draw();
-}
-
-const std::vector<float>& GlRaster::depth_so_far() {
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
-  take_pixels(gl_, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, values_.data());
-  return values_;
 }
 
 void GlRaster::finish() {

@@ -21,7 +21,6 @@ class GlRaster : public TriangleRaster {
   void draw(const std::vector<ClusterRun>& runs) override;
   bool draw_what_shows(const std::vector<DrawCandidate>& candidates) override;
   std::size_t read_triangles() const override { return cull_->read_triangles(); }
-  const std::vector<float>& depth_so_far() override;
   void finish() override;
 
   const std::vector<float>& depth_values() const override;
@@ -44,7 +43,7 @@ class GlRaster : public TriangleRaster {
   const GlGeometry& geometry_;
   GlProgram program_, plane_program_;
   DrawList list_;
-  std::unique_ptr<CullPass> cull_;  // null: not asked for, or not to be had
+  std::unique_ptr<CullPass> cull_;  // null: not asked for
   GlBuffer block_;
   GlVertexArray empty_array_;
   GlTexture ids_, depth_, plane_depth_;

@@ -21,7 +21,7 @@ local crawler = rubble.robot.crawler {
 }
 
 return rubble.mission {
-  seed = 8,
+  seed = 22,
   packs = { "parking" },
   pile = building,
   robots = { crawler },

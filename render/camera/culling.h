@@ -2,12 +2,16 @@
 // that has been drawn. Every test errs towards "visible", so nothing that shows is ever dropped.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "kernel/base/math.h"
 #include "render/camera/projection.h"
 
 namespace rubble {
+
+// Before any depth is known, the nearest pieces up to this many triangles are drawn.
+inline constexpr std::size_t kFirstBatch = 150000;
 
 // Depth-buffer values (near / Z; 0: nothing) as a pyramid of the farthest one in each tile.
 class DepthPyramid {

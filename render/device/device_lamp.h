@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "render/media/air_links.h"
-#include "render/media/air_matter.h"
 
 namespace rubble {
 

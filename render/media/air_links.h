@@ -1,14 +1,16 @@
 // What the points of the air see: in each of some directions a surface or the sky, however far away. Found once for a
-// scene; light of any kind is then carried along these links.
+// scene; light of any kind is then carried along these links. And what it meets in the air on its way.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "render/geometry/geometry.h"
 #include "render/geometry/ray_scene.h"
 #include "render/lighting/radiance_grid.h"
+#include "render/media/medium.h"
 
 namespace rubble {
 
@@ -53,5 +55,12 @@ struct AirLinks {
 // Points 0.4 m apart over the box, farther where that would be more than some thousands. scene: without what moves;
 // bake points are counted over its placed meshes in turn. rays: of what light does not pass through there.
 AirLinks make_air_links(const PreparedScene& scene, const RayScene& rays, const Aabb& box, int threads);
+
+// The mean air at the points of a grid, without billows and puffs, as it turns light: see forward_share().
+struct AirMatter {
+  std::vector<float> extinction;                      // unit: 1/m
+  std::vector<std::array<float, kOrders>> scattered;  // of what it takes, what it gives back of each order
+};
+AirMatter turning_matter(const Air& air, const AirGrid& grid);
 
 }  // namespace rubble

@@ -7,8 +7,6 @@ namespace rubble {
 
 namespace {
 
-// Before any depth is known, draw the nearest pieces up to this many triangles.
-constexpr std::size_t kFirstBatch = 150000;
 constexpr std::size_t kJobPieces = 32;
 
 }  // namespace

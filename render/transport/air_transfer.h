@@ -7,7 +7,6 @@
 
 #include "kernel/base/parallel.h"
 #include "render/lighting/radiance_grid.h"
-#include "render/media/air_matter.h"
 #include "render/media/air_links.h"
 
 namespace rubble {

@@ -11,8 +11,6 @@ namespace rubble {
 
 namespace {
 
-// Before any depth is known, the nearest pieces up to this many triangles are drawn.
-constexpr std::size_t kFirstBatch = 150000;
 constexpr GLuint kCandidatesAGroup = 64;
 
 // Mirror shaders/cull_words.glsl.

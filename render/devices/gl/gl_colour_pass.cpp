@@ -131,13 +131,12 @@ GlProgram make_resolve_program(const Gl& gl, const ShaderDefines& defines) {
 
 GlColourPass::GlColourPass(const Gl& gl, const GlGeometry& geometry, const GlRaster& raster,
                            const GlShadowPass& shadows, const std::unique_ptr<LampPass>& lit_by, const FrameLight& light,
-                           const GroundMap& ground, const std::vector<PatternImage>& patterns, ThreadPool& pool)
+                           const GroundMap& ground, const std::vector<PatternImage>& patterns)
     : gl_(gl),
       geometry_(geometry),
       raster_(raster),
       shadows_(shadows),
       lamp_(lit_by),
-      pool_(pool),
       frame_block_(gl),
       empty_array_(gl),
       contact_(gl),

@@ -23,8 +23,7 @@ class GlColourPass : public ColourPass {
  public:
   // What they refer to must outlive it. lamp: null as long as no lamp was lit.
   GlColourPass(const Gl& gl, const GlGeometry& geometry, const GlRaster& raster, const GlShadowPass& shadows,
-               const std::unique_ptr<LampPass>& lamp, const FrameLight& light, const GroundMap& ground, const std::vector<PatternImage>& patterns,
-               ThreadPool& pool);
+               const std::unique_ptr<LampPass>& lamp, const FrameLight& light, const GroundMap& ground, const std::vector<PatternImage>& patterns);
 
   float meter(const ViewProjection& view, const Pose& world_from_camera,
               const SurfaceImages& surfaces, const FrameLight& light) override;
@@ -57,7 +56,6 @@ class GlColourPass : public ColourPass {
   const GlRaster& raster_;
   const GlShadowPass& shadows_;
   const std::unique_ptr<LampPass>& lamp_;
-  ThreadPool& pool_;
   enum Variant { kLinear = 1, kRays = 2, kLamp = 4, kMeter = 8, kSoftSun = 16, kBehind = 32 };
   const GlProgram& program(int variant);  // made when it is first needed
   void draw_meter(const ViewProjection& view, const Pose& world_from_camera, const SurfaceImages& surfaces,

@@ -13,10 +13,9 @@ namespace {
 class GlScene : public DeviceScene {
  public:
   GlScene(GlContext& context, const PreparedScene& scene, const LightSet& lights, const LightTable& light,
-          const DeviceSceneOptions& options, ThreadPool& pool)
+          const DeviceSceneOptions& options)
       : context_(context),
         scene_(scene),
-        pool_(pool),
         geometry_(context.gl(), scene, make_scene_tables(scene), light),
         raster_(context.gl(), scene, geometry_) {
     if (options.shades)
@@ -39,13 +38,12 @@ class GlScene : public DeviceScene {
   }
   std::unique_ptr<ColourPass> make_colour_pass(const FrameLight& light, const GroundMap& ground,
                                                const std::vector<PatternImage>& patterns) override {
-    return std::make_unique<GlColourPass>(context_.gl(), geometry_, raster_, *shadows_, lamp_, light, ground, patterns, pool_);
+    return std::make_unique<GlColourPass>(context_.gl(), geometry_, raster_, *shadows_, lamp_, light, ground, patterns);
   }
 
  private:
   GlContext& context_;
   const PreparedScene& scene_;
-  ThreadPool& pool_;
   GlGeometry geometry_;
   GlRaster raster_;
   std::unique_ptr<GlShadowPass> shadows_;  // null: colours are not asked for
@@ -72,8 +70,8 @@ DeviceTraffic GlDevice::traffic() const {
 
 std::unique_ptr<DeviceScene> GlDevice::load(const PreparedScene& scene, const LightSet& lights,
                                             const LightTable& light, const DeviceSceneOptions& options,
-                                            ThreadPool& pool) {
-  return std::make_unique<GlScene>(context_, scene, lights, light, options, pool);
+                                            ThreadPool&) {
+  return std::make_unique<GlScene>(context_, scene, lights, light, options);
 }
 
 }  // namespace rubble

@@ -22,7 +22,6 @@ from document_marks import write_between_marks
 ORDER = ("soft_ground", "car_park", "loaded_roof", "loaded_floor", "quake", "quake_frame", "half_removed",
          "corner_bay", "row_of_columns", "blast", "lorry", "sinking")
 KINDS = {"brick_house": -1.2, "precast_deck": -3, "bridge_span": 0.4, "planned_house": 3, "stair_shaft": -1.5}  # cut at y
-STANDING = ("sinking",)  # not ruins to compare
 STAGED = ("pancake", "lean_to", "v_shape", "a_frame", "cantilever", "inclined", "lean_over", "curtain", "heap", "culvert")
 WIDTH = 420  # of a picture; pixels
 COLUMNS = 3
@@ -160,10 +159,8 @@ def main():
     write_between_marks(args.document, "ruins", "\n".join(lines) + "\n")
     staged = [make(args, f"scripts/collapse/{name}.lua", os.path.join(args.out, "staged", name), ["--set", "voids.on=true"])
               for name in STAGED]
-    caused = [ruin["manifest"] for ruin in ruins if ruin["name"] not in STANDING]
-    write_between_marks(args.document, "voids", compare_voids(caused, staged))
-    fallen = [ruin for ruin in ruins if ruin["name"] not in STANDING]
-    write_between_marks(args.document, "published", compare_published(fallen))
+    write_between_marks(args.document, "voids", compare_voids([ruin["manifest"] for ruin in ruins], staged))
+    write_between_marks(args.document, "published", compare_published(ruins))
 
 
 if __name__ == "__main__":

@@ -62,7 +62,8 @@ struct CollapseCause {
   double blast = 0;                  // impulse per area at 1 m from `blast_at`; unit: N s/m2; >= 0
   Vec3 blast_at;                     // unit: m
   StrikingVehicle vehicle;
-  std::vector<SinkingFooting> sinking;  // at constant speed within 2 s
+  // Their columns go down into the ground with them, at constant speed within 2 s, unless the building holds them up.
+  std::vector<SinkingFooting> sinking;
 
   // Duration of the motion of the ground; unit: s.
   double shaking_time() const {

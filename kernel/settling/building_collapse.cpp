@@ -93,12 +93,12 @@ void BuildingCollapse::sink_footings() {
   const std::int64_t every = std::max<std::int64_t>(1, std::llround(kSinkingStep / step_length_));
   if (footings_.empty() || time > kSinkingTime + kSinkingStep || step_ % every != 0) return;
   const double share = std::min(1.0, time / kSinkingTime);
-  for (const auto& [column, depth] : footings_) collapse_->sink(column, {0, 0, -depth * share});
+  for (const auto& [column, depth] : footings_) collapse_->sink(column, depth * share);
 }
 
 bool BuildingCollapse::goes_on() const {
   const bool sinks = !footings_.empty() && double(step_) * step_length_ < kSinkingTime + kSinkingStep;
-  return !motion_.over(step_) || sinks || collapse_->is_breaking();
+  return !motion_.over(step_) || sinks || collapse_->is_sinking() || collapse_->is_breaking();
 }
 
 BuildingState BuildingCollapse::state(const World& world) const {

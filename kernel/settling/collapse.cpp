@@ -19,6 +19,7 @@ Collapse::~Collapse() { impl_->world.structures().set_on_solved({}); }
 
 void Collapse::begin_step(const Vec3& ground_acceleration) {
   impl_->ground_acceleration = ground_acceleration;
+  impl_->ride();
   impl_->accelerate();
 }
 
@@ -30,6 +31,7 @@ void Collapse::end_step() {
   impl_->settle_forces();
 }
 
+bool Collapse::is_sinking() const { return impl_->rides; }
 bool Collapse::is_breaking() const { return impl_->breaking || impl_->struck >= 0; }
 int Collapse::arrests() const { return impl_->arrests; }
 int Collapse::first_piece() const { return impl_->first; }

@@ -55,9 +55,11 @@ class Collapse {
   // From now on a body drives into the piece of a member that is nearest to a place, and on behind it, until
   // it has come to a stop or lost it.
   void strike(int member, const Vec3& at, const Striker& striker);
-  // Where the foundation under the pieces of a member now is, against where it was; unit: m.
-  void sink(int member, const Vec3& by);
+  // How far the footing under a member has sunk so far; unit: m. What stands on such footings alone goes down with
+  // them; what the rest of the structure holds up stays, and so does a footing that it would have to pull.
+  void sink(int member, double depth);
 
+  bool is_sinking() const;   // something went down with its footing in the last step
   bool is_breaking() const;  // something failed in the last step: the next one may have more
   // Impacts so far that overloaded bonds but brought too little energy to break them.
   int arrests() const;

@@ -60,8 +60,10 @@ void Collapse::Impl::keep(const BondGroup& group, std::unique_ptr<GroupStress> w
 }
 
 // What still holds together of a body some bonds of which have failed.
-std::vector<BondGroup> Collapse::Impl::groups_left_of(std::int32_t lead) const {
-  return find_parts(structure, status, parts.at(lead).stress->group());
+std::vector<BondGroup> Collapse::Impl::groups_left_of(std::int32_t lead) {
+  std::vector<BondGroup> groups = find_parts(structure, status, parts.at(lead).stress->group());
+  set_down(groups);
+  return groups;
 }
 
 void Collapse::Impl::replace(std::int32_t lead, const std::vector<BondGroup>& groups, bool always) {
@@ -79,7 +81,8 @@ void Collapse::Impl::replace(std::int32_t lead, const std::vector<BondGroup>& gr
       [](const BondGroup& a, const BondGroup& b) { return a.pieces.size() < b.pieces.size(); });
   std::vector<SplitPart> split;
   for (const BondGroup& group : groups) {
-    keep(group, &group == &*largest ? std::move(whole) : nullptr);
+    // The factor of the whole has lost the bonds of footings that hung.
+    keep(group, &group == &*largest && !stands_on_sinking_only(group) ? std::move(whole) : nullptr);
     SplitPart part;
     for (const std::int32_t piece : group.pieces) part.pieces.push_back(first + piece);
     part.fixed = group.anchored;

@@ -71,7 +71,8 @@ bool Collapse::Impl::update(std::int32_t lead, const Touches& touches) {
   if (part.waits > 0 && !impact) return false;
   const std::vector<PieceLoad> loads = calc_loads(lead, part, touches, true);
   if (!is_news(part, loads)) return false;
-  const StressResult result = solve(part, loads);
+  StressResult result = solve(part, loads);
+  while (lift(group, result)) result = solve(part, loads);
   part.solved.clear();
   for (const std::int32_t i : group.pieces) part.solved.push_back(loads[i]);
   part.forces = result.forces;

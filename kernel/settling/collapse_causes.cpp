@@ -1,4 +1,4 @@
-// What acts on a building beside contacts: vehicles, sinking ground, ground that moves; and
+// What acts on a building beside contacts: vehicles, ground that moves; and
 // the energy that breaking took.
 #include <algorithm>
 #include <cmath>
@@ -115,16 +115,6 @@ void Collapse::strike(int member, const Vec3& at, const Striker& striker) {
   c.struck_from = c.world.piece(c.first + c.struck).world_from_body.translation;
   c.strike_steps = int(kStrikeTime / c.options.step);
   c.knock_out();
-}
-
-void Collapse::sink(int member, const Vec3& by) {
-  for (std::size_t i = 0; i < impl_->structure.bonds.size(); ++i) {
-    const Bond& bond = impl_->structure.bonds[i];
-    if (bond.piece_b != kFoundation || impl_->structure.pieces[bond.piece_a].member != member)
-      continue;
-    impl_->status[i].sunk = by;
-    impl_->sinks = true;
-  }
 }
 
 }  // namespace rubble

@@ -47,6 +47,8 @@ struct Collapse::Impl {
   double driven = 0;         // since it struck; unit: m
   int strike_steps = 0;      // the most that are to come
   bool sinks = false;        // a footing went down since the last solution
+  bool rides = false;        // what stands on footings went down with them in this step
+  std::map<std::int32_t, double> sinking;  // by bond to a footing that sinks: its depth; unit: m
   std::map<std::int32_t, Vec3> blasted;  // impulse of each piece that a blast broke off, in this step; unit: N s
   std::vector<std::pair<int, double>> drained;  // pieces of the world, and the energy that breaking took
   CollapseReport report;
@@ -57,7 +59,7 @@ struct Collapse::Impl {
   Impl(World& w, const Structure& s, int first_type, const CollapseOptions& o,
        std::vector<SectionForces> before);
   void keep(const BondGroup& group, std::unique_ptr<GroupStress> whole);
-  std::vector<BondGroup> groups_left_of(std::int32_t lead) const;
+  std::vector<BondGroup> groups_left_of(std::int32_t lead);
   void replace(std::int32_t lead, const std::vector<BondGroup>& groups, bool always = false);
   std::map<std::int32_t, Touches> find_touches() const;
   void tie(const std::vector<BondFailure>& failures);
@@ -83,6 +85,14 @@ struct Collapse::Impl {
   // collapse_blast.cpp
   bool blow_off(const std::vector<std::int32_t>& pieces, const std::vector<Vec3>& impulses,
                 std::vector<BondFailure>& failures);
+
+  // collapse_sinking.cpp: footings that go down
+  double lowered(std::int32_t piece) const;  // how far it has gone down with its footing; unit: m
+  double height_above_ground(const BondGroup& group) const;
+  bool stands_on_sinking_only(const BondGroup& group) const;
+  bool lift(const BondGroup& group, const StressResult& result);
+  void set_down(std::vector<BondGroup>& groups);
+  void ride();
 
   // collapse_causes.cpp: what moves bodies beside contacts
   Vec3 strike_force() const;

@@ -44,6 +44,7 @@ struct MemberPlace {
   std::string part;       // of a plan: its name
   bool infill = false;    // a wall that only loads its frame
   bool bearing = false;   // a wall or column that carries floors
+  bool footing = false;   // its lower end, which sinks into the ground with its footing
 };
 
 // A box with its material.

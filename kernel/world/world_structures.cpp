@@ -15,6 +15,16 @@ void World::Structures::split(const std::vector<SplitPart>& parts) {
   impl_->groups.split(impl_->data.bodies[parts[0].pieces[0]].lead, parts);
 }
 
+void World::Structures::move_fixed(int index, const Vec3& by) {
+  Body& body = impl_->data.bodies[impl_->data.bodies[index].lead];
+  for (const Contact& contact : impl_->data.contacts) {
+    if (contact.body_b == kGround) continue;
+    if (contact.body_a == body.lead) impl_->waking.wake(contact.body_b);
+    if (contact.body_b == body.lead) impl_->waking.wake(contact.body_a);
+  }
+  impl_->groups.move_fixed(body.lead, by);
+}
+
 std::vector<int> World::Structures::bound_with(int index) const {
   const Body& body = impl_->bodies.acting(index);
   if (body.group < 0) return {index};

@@ -14,6 +14,8 @@ class World::Structures {
   // some. Splitting conserves mass, momentum, angular momentum and energy. `parts` must contain all pieces of the body.
   void bind(int first, int count);
   void split(const std::vector<SplitPart>& parts);
+  // Moves the fixed body of a piece, without a speed, as the ground under it moves. What lies near it wakes. unit: m
+  void move_fixed(int index, const Vec3& by);
   // All pieces of the rigid body of a piece, ascending.
   std::vector<int> bound_with(int index) const;
   // Of the centre of mass of the rigid body of a piece; unit: m/s.

@@ -60,13 +60,7 @@ void add_overload(const BuildingSpec& b, Structure& s) {
   }
 }
 
-}  // namespace
-
-bool is_ground_column(const Member& member, int i, int j, const std::string& part) {
-  return is_column(member.place, 0, i, j, part);
-}
-
-std::vector<Member> list_members(const BuildingSpec& b) {
+std::vector<Member> make_members(const BuildingSpec& b) {
   if (b.planned()) return make_planned(b);
   switch (b.kind) {
     case BuildingKind::masonry: return make_masonry(b);
@@ -75,6 +69,18 @@ std::vector<Member> list_members(const BuildingSpec& b) {
     case BuildingKind::frame: break;
   }
   return make_frame(b);
+}
+
+}  // namespace
+
+bool is_ground_column(const Member& member, int i, int j, const std::string& part) {
+  return is_column(member.place, 0, i, j, part);
+}
+
+std::vector<Member> list_members(const BuildingSpec& b) {
+  std::vector<Member> members = make_members(b);
+  add_footings(b, members);
+  return members;
 }
 
 Structure build_building(const BuildingSpec& building) {

@@ -57,6 +57,9 @@ inline constexpr double kDoorHeight = 2.0;  // clear; unit: m
 // "wall (1, 0) of storey 2"
 std::string place_name(const std::string& what, int storey, int i, int j);
 
+// Cuts what sinks into the ground off the lower ends of columns whose footings will: see CollapseCause::sinking.
+void add_footings(const BuildingSpec& building, std::vector<Member>& members);
+
 // The members of each kind of building, as it stands before its cause.
 std::vector<Member> make_frame(const BuildingSpec& building);
 std::vector<Member> make_masonry(const BuildingSpec& building);

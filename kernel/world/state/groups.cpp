@@ -128,6 +128,18 @@ void RigidGroups::move_contacts(const Vec3& old_centre, int old_lead) {
   }
 }
 
+void RigidGroups::move_fixed(int lead, const Vec3& by) {
+  Body& body = data_.bodies[lead];
+  body.world_from_com.translation += by;
+  body.travel += norm(by);
+  data_.verification_steps = -1;
+  bodies_.refresh(body);
+  bodies_.each_collider(body, [&](int collider) {
+    data_.broad.place(collider, BroadPhase::enlarge(data_.colliders[collider].box, {}));
+  });
+  pairs_.find_first(lead);
+}
+
 void RigidGroups::split(int lead, const std::vector<SplitPart>& parts) {
   const Body whole = data_.bodies[lead];
   const Vec3 linear = bodies_.linear_velocity(whole), angular = bodies_.angular_velocity(whole);

@@ -21,6 +21,7 @@ class RigidGroups {
   // is, unless it is fixed.
   void lay(const SplitPart& part, FreeBody* free);
   void split(int lead, const std::vector<SplitPart>& parts);
+  void move_fixed(int lead, const Vec3& by);
 
  private:
   void form(const SplitPart& part, const Body& whole);

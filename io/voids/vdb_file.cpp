@@ -152,37 +152,41 @@ WritablePtr make_solid_grid(const VoidSpace& space) {
   return std::make_unique<WholeGrid>(grid);
 }
 
-// The ranks of voids, by their cells. Questions about cells beside each other are quick.
+// The ranks of voids, by their cells.
 class Ranks {
  public:
-  explicit Ranks(const RobotVoids& robot) {
+  Ranks(const RobotVoids& robot, std::size_t cells) {
     for (std::size_t v = 0; v < robot.voids.size(); ++v)
       for (const CellRun& run : robot.voids[v].cells.runs()) runs_.push_back({run, int(v + 1)});
     std::sort(runs_.begin(), runs_.end(), [](const Run& a, const Run& b) { return a.cells.first < b.cells.first; });
+    std::uint32_t run = 0;
+    for (std::size_t block = 0; block <= cells / kBlock; ++block) {
+      while (run < runs_.size() && end_of(runs_[run]) <= block * kBlock) ++run;
+      begin_.push_back(run);
+    }
   }
 
-  int operator()(std::size_t cell) {  // 0: in none
-    if (runs_.empty()) return 0;
-    if (cell < runs_[at_].cells.first || (at_ + 1 < runs_.size() && cell >= runs_[at_ + 1].cells.first)) {
-      const auto after = std::upper_bound(runs_.begin(), runs_.end(), cell,
-                                          [](std::size_t i, const Run& run) { return i < run.cells.first; });
-      if (after == runs_.begin()) return 0;
-      at_ = std::size_t(after - runs_.begin()) - 1;
-    }
-    return cell - runs_[at_].cells.first < runs_[at_].cells.count ? runs_[at_].rank : 0;
+  int operator()(std::size_t cell) const {  // 0: in none
+    std::size_t run = begin_[cell / kBlock];
+    while (run < runs_.size() && end_of(runs_[run]) <= cell) ++run;
+    return run < runs_.size() && runs_[run].cells.first <= cell ? runs_[run].rank : 0;
   }
 
  private:
+  static constexpr std::size_t kBlock = 64;  // cells
+
   struct Run {
     CellRun cells;
     int rank;
   };
+  static std::size_t end_of(const Run& run) { return std::size_t(run.cells.first) + run.cells.count; }
+
   std::vector<Run> runs_;
-  std::size_t at_ = 0;  // of the last answer
+  std::vector<std::uint32_t> begin_;  // of each block of cells, the first run that does not end before it
 };
 
 WritablePtr make_label_grid(const VoidSpace& space, const RobotVoids& robot) {
-  const auto ranks = std::make_shared<Ranks>(robot);
+  const auto ranks = std::make_shared<const Ranks>(robot, space.grid.count());
   const auto rank_at = [ranks](std::size_t i) { return (*ranks)(i); };
   auto late = std::make_unique<LateGrid<openvdb::Int32Grid>>(space.grid, rank_at, rank_at);
   describe(space, "voids_r" + std::to_string(int(std::lround(robot.radius * 1000))), late->grid());

@@ -1,5 +1,6 @@
 #include "io/voids/void_files.h"
 
+#include <openvdb/tools/Prune.h>
 #include <openvdb/tools/VolumeToMesh.h>
 
 #include <algorithm>
@@ -73,7 +74,10 @@ TriangleMesh make_void_surface(const VoidSpace& space, const Void& v) {
   std::call_once(once, [] { openvdb::initialize(); });
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec4I> quads;
-  openvdb::tools::volumeToMesh(*make_grid(space.grid, v), points, quads, 0.5);
+  openvdb::FloatGrid::Ptr grid = make_grid(space.grid, v);
+  openvdb::tools::prune(grid->tree());  // what is deep inside takes no memory
+  openvdb::tools::volumeToMesh(*grid, points, quads, 0.5);
+  grid.reset();
   TriangleMesh mesh;
   mesh.positions.reserve(points.size());
   for (const openvdb::Vec3s& p : points) {

@@ -20,6 +20,8 @@ class CellClearance {
     const std::size_t at = place(cell);
     return at == kNoSlot ? 0 : values_[at];
   }
+  // Of the cell whose number in kept() that is.
+  float of_number(std::size_t number) const { return values_[number]; }
   // Without effect on a cell whose number is not kept.
   void set(std::size_t cell, float value) {
     const std::size_t at = place(cell);

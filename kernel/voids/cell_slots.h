@@ -2,10 +2,11 @@
 // the others: a bit a cell, and for each word of these how many come before it.
 #pragma once
 
-#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "kernel/base/bits.h"
 
 namespace rubble {
 
@@ -39,7 +40,7 @@ class CellSlots {
     const Word& word = words_[index / kBits];
     const std::uint64_t bit = std::uint64_t(1) << (index % kBits);
     if (!(word.bits() & bit)) return kNoSlot;
-    return word.before + count_bits(word.bits() & (bit - 1));
+    return word.before + count_ones(word.bits() & (bit - 1));
   }
 
  private:
@@ -53,12 +54,11 @@ class CellSlots {
     std::uint64_t bits() const { return half[0] | std::uint64_t(half[1]) << 32; }
   };
 
-  static std::uint32_t count_bits(std::uint64_t bits) { return std::uint32_t(std::bitset<kBits>(bits).count()); }
   void mark(std::size_t i) { words_[i / kBits].half[i % kBits / 32] |= std::uint32_t(1) << (i % 32); }
   void count_before() {
     for (Word& word : words_) {
       word.before = std::uint32_t(count_);
-      count_ += count_bits(word.bits());
+      count_ += count_ones(word.bits());
     }
   }
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint32_t kOutside = 0xfffffffeu;
 constexpr std::uint32_t kUnvisited = 0xffffffffu;
+constexpr double kSortedPerVoxel = 16;
 
 // Floods the void from its widest places downwards; each place that is reached from none before it
 // is a peak. Where two floods meet is the throat between them, or, when one of the peaks hardly
@@ -20,14 +21,7 @@ class Watershed {
  public:
   Watershed(const VoidSpace& space, double smallest, double persistence)
       : space_(space), persistence_(persistence) {
-    for (std::size_t i = 0; i < space.kind.size(); ++i) {
-      if (space.kind[i] == CellKind::free_void && space.clearance[i] >= float(smallest))
-        order_.push_back(std::uint32_t(i));
-    }
-    std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return space.clearance[a] != space.clearance[b] ? space.clearance[a] > space.clearance[b]
-                                                      : a < b;
-    });
+    sort_cells(float(smallest));
     slots_ = CellSlots(space.kind.size(), order_);
     basin_of_.assign(order_.size(), kUnvisited);
   }
@@ -38,6 +32,36 @@ class Watershed {
   }
 
  private:
+  // The widest first, then by index: by levels of clearance, which are sorted one by one, as all at once would take
+  // twice the memory.
+  void sort_cells(float smallest) {
+    const auto visit_wide = [&](const auto& visit) {
+      for (std::size_t i = 0; i < space_.kind.size(); ++i) {
+        if (space_.kind[i] != CellKind::free_void) continue;
+        const float clearance = space_.clearance[i];
+        if (clearance >= smallest) visit(std::uint32_t(i), clearance);
+      }
+    };
+    std::vector<std::size_t> begin;  // of the levels in turn, the narrowest last
+    const auto level_of = [&](float clearance) { return std::size_t(clearance / space_.grid.voxel * kSortedPerVoxel); };
+    visit_wide([&](std::uint32_t, float clearance) {
+      if (begin.size() <= level_of(clearance)) begin.resize(level_of(clearance) + 1);
+      ++begin[level_of(clearance)];
+    });
+    std::size_t count = 0;
+    for (std::size_t level = begin.size(); level-- > 0;) count += std::exchange(begin[level], count);
+    order_.resize(count);
+    visit_wide([&](std::uint32_t i, float clearance) { order_[begin[level_of(clearance)]++] = i; });
+    std::vector<std::pair<float, std::uint32_t>> cells;
+    std::size_t first = 0;
+    for (std::size_t level = begin.size(); level-- > 0;) {
+      cells.clear();
+      for (std::size_t k = first; k < begin[level]; ++k) cells.push_back({-space_.clearance[order_[k]], order_[k]});
+      std::sort(cells.begin(), cells.end());
+      for (const auto& cell : cells) order_[first++] = cell.second;
+    }
+  }
+
   struct Basin {
     std::uint32_t peak;
     std::uint32_t parent;

@@ -45,9 +45,16 @@ class Flood {
   void enter_from_outside() {
     for (std::size_t i = 0; i < space_.kind.size(); ++i) {
       if (space_.kind[i] != CellKind::free_void) continue;
-      const float here = space_.clearance[i], entry = calc_entry(space_, i);
-      if (entry >= 0) reach(i, (*paths_.cells)[i], std::min(entry, here), std::uint32_t(i), entry < here);
+      const float entry = calc_entry(space_, i);
+      if (entry < 0) continue;
+      const std::size_t slot = (*paths_.cells)[i];
+      const float here = find_clearance(i, slot);
+      reach(i, slot, std::min(entry, here), std::uint32_t(i), entry < here);
     }
+  }
+
+  float find_clearance(std::size_t i, std::size_t slot) const {
+    return space_.clearance.is_sparse() ? space_.clearance.of_number(slot) : space_.clearance[i];
   }
 
   std::size_t find_level(float radius) const {
@@ -78,7 +85,7 @@ class Flood {
       if (space_.kind[k] != CellKind::free_void) return;
       const std::size_t slot = (*paths_.cells)[k];
       if (is_no_wider(k, slot, narrowest, is_entry_narrower)) return;
-      const float here = space_.clearance[k];
+      const float here = find_clearance(k, slot);
       if (here < radius)
         reach(k, slot, here, std::uint32_t(k), false);
       else

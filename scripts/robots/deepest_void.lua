@@ -9,7 +9,7 @@ return rubble.mission {
     rubble.robot.vine {
       name = "vine", position = { -5.2, -0.65, 0.35 }, length = 8.4, link_length = 0.06, pressure = 20e3,
       control = rubble.robot.grow_along {
-        path = { { -5.2, -0.65, 0.35 }, { -3, -0.7, 0.4 }, { 0.5, -0.7, 0.4 }, { 2.675, -0.475, 0.375 } },
+        path = { { -5.2, -0.65, 0.35 }, { -3, -0.7, 0.4 }, { 0.5, -0.7, 0.4 }, { 2.725, -0.775, 0.525 } },
         speed = 0.3,
       },
     },

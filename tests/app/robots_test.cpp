@@ -320,9 +320,7 @@ TEST_F(RobotsInTheFirstPile, ASnakeRollsIntoTheLeanToAndOut) { expect_in_and_out
 TEST_F(RobotsInTheFirstPile, AVineGrowsIntoTheLeanToAndOut) { expect_in_and_out("vine", -3.3); }
 
 // The tip ends within the ball that `rubble voids` says gets there, and no deeper place is in any void.
-class NightlyRobotsInTheFirstPile : public RobotsInTheFirstPile {};
-
-TEST_F(NightlyRobotsInTheFirstPile, AVineGrowsToTheDeepestVoid) {
+TEST_F(RobotsInTheFirstPile, AVineGrowsToTheDeepestVoid) {
   drive("deepest_void.lua");
   if (HasFatalFailure()) return;
   const Outcome settled = run_rubble("settle scripts/robots/deepest_void.lua --quiet --out " + (scratch_ / "pile"));

@@ -10,6 +10,7 @@
 #include "kernel/queries/queries.h"
 #include "kernel/voids/seen_cells.h"
 #include "python/arrays.h"
+#include "python/one_thread.h"
 #include "python/parts.h"
 #include "render/rays/depth_rays.h"
 
@@ -47,7 +48,7 @@ struct ExploredPile {
         queries(settled.state, settled.mission.assets.finest_meshes()) {}
 };
 
-class Explorer {
+class Explorer : public OneThread {
  public:
   Explorer(std::shared_ptr<ExploredPile> pile, const DoubleArray& cells, double voxel, double radius, int size,
            double fov_deg, double max_range, int threads)
@@ -150,13 +151,13 @@ void add_explorer(nb::module_& module) {
                           const nb::object& threads) {
         new (made) Explorer(pile, cells, voxel, radius, size, fov_deg, max_range, to_threads(threads));
       })
-      .def("set_camera", &Explorer::set_camera, nb::arg("fov_deg"), nb::arg("shift_x"), nb::arg("shift_y"))
-      .def("forget", &Explorer::forget)
-      .def("look", &Explorer::look, nb::arg("pose"))
-      .def("move", &Explorer::move, nb::arg("from_"), nb::arg("way"))
-      .def_prop_ro("seen", &Explorer::seen)
-      .def_prop_ro("count", &Explorer::count)
-      .def_prop_ro("K", &Explorer::matrix, nb::rv_policy::automatic);
+      .def("set_camera", in_one_thread(&Explorer::set_camera), nb::arg("fov_deg"), nb::arg("shift_x"), nb::arg("shift_y"))
+      .def("forget", in_one_thread(&Explorer::forget))
+      .def("look", in_one_thread(&Explorer::look), nb::arg("pose"))
+      .def("move", in_one_thread(&Explorer::move), nb::arg("from_"), nb::arg("way"))
+      .def_prop_ro("seen", in_one_thread(&Explorer::seen))
+      .def_prop_ro("count", in_one_thread(&Explorer::count))
+      .def_prop_ro("K", in_one_thread(&Explorer::matrix), nb::rv_policy::automatic);
 }
 
 }  // namespace rubble::python

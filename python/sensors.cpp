@@ -8,6 +8,7 @@
 #include "app/sensors/camera_renderers.h"
 #include "kernel/base/parallel.h"
 #include "python/arrays.h"
+#include "python/one_thread.h"
 #include "python/parts.h"
 #include "render/rays/depth_rays.h"
 #include "render/renderer.h"
@@ -41,7 +42,7 @@ Scene scene_of(const SettledMission& settled) {
 namespace {
 
 // Colour and depth, as `rubble run` draws them.
-class FrameRenderer {
+class FrameRenderer : public OneThread {
  public:
   FrameRenderer(SharedPile settled, int threads)
       : settled_(std::move(settled)),
@@ -67,7 +68,7 @@ class FrameRenderer {
 };
 
 // Planar depth by exact rays, for loops that need no colour: nothing is baked, no device is opened.
-class DepthCamera {
+class DepthCamera : public OneThread {
  public:
   DepthCamera(SharedPile settled, int width, int height, double fov_deg, double max_range, int threads)
       : world_(scene_of(*settled)), rays_(pinhole(width, height, fov_deg), max_range), pool_(threads) {
@@ -100,15 +101,15 @@ void add_sensors(nb::module_& module) {
       .def("__init__", [](FrameRenderer* made, const SharedPile& s, const nb::object& threads) {
         new (made) FrameRenderer(s, to_threads(threads));
       })
-      .def("render", &FrameRenderer::render, nb::arg("pose"), nb::arg("width") = 640, nb::arg("height") = 480,
+      .def("render", in_one_thread(&FrameRenderer::render), nb::arg("pose"), nb::arg("width") = 640, nb::arg("height") = 480,
            nb::arg("fov_deg") = 90.0, nb::arg("number") = 0, nb::arg("shift") = std::array<double, 2>{0, 0});
   nb::class_<DepthCamera>(module, "_DepthCamera")
       .def("__init__", [](DepthCamera* made, const SharedPile& s, int width, int height, double fov_deg, double max_range,
                           const nb::object& threads) {
         new (made) DepthCamera(s, width, height, fov_deg, max_range, to_threads(threads));
       })
-      .def("depth", &DepthCamera::depth, nb::arg("pose"))
-      .def_prop_ro("K", &DepthCamera::matrix, nb::rv_policy::automatic);
+      .def("depth", in_one_thread(&DepthCamera::depth), nb::arg("pose"))
+      .def_prop_ro("K", in_one_thread(&DepthCamera::matrix), nb::rv_policy::automatic);
   add_range_scans(module);
 }
 

@@ -11,6 +11,7 @@
 
 #include "app/control/robot_control.h"
 #include "kernel/world/world_robots.h"
+#include "python/one_thread.h"
 #include "python/parts.h"
 #include "python/robot_commands.h"
 #include "scripting/robots/robot_kind.h"
@@ -25,7 +26,7 @@ Array<double> to_array(std::vector<double> values) {
   return take_vector(std::move(values), {count});
 }
 
-class MissionSession {
+class MissionSession : public OneThread {
   template <typename Work>
   auto with_lines(const Work& work) const {
     return with_lines_of_script(settled_->mission, work);
@@ -233,17 +234,17 @@ void add_sessions(nb::module_& module) {
                           bool fixed_debris, const nb::object& threads, std::optional<double> friction) {
         new (made) MissionSession(settled, robot, to_pose(pose, "pose"), fixed_debris, to_threads(threads), friction);
       })
-      .def("reset", &MissionSession::reset)
-      .def("drive", &MissionSession::drive)
-      .def("grow", &MissionSession::grow)
-      .def("set_joints", &MissionSession::set_joints)
-      .def("follow_mission", &MissionSession::follow_mission)
-      .def("step", &MissionSession::step)
-      .def("observe", &MissionSession::observe)
-      .def("state", &MissionSession::state)
-      .def("link_names", &MissionSession::link_names)
-      .def_prop_ro("robots", &MissionSession::robots)
-      .def_prop_ro("time", &MissionSession::time);
+      .def("reset", in_one_thread(&MissionSession::reset))
+      .def("drive", in_one_thread(&MissionSession::drive))
+      .def("grow", in_one_thread(&MissionSession::grow))
+      .def("set_joints", in_one_thread(&MissionSession::set_joints))
+      .def("follow_mission", in_one_thread(&MissionSession::follow_mission))
+      .def("step", in_one_thread(&MissionSession::step))
+      .def("observe", in_one_thread(&MissionSession::observe))
+      .def("state", in_one_thread(&MissionSession::state))
+      .def("link_names", in_one_thread(&MissionSession::link_names))
+      .def_prop_ro("robots", in_one_thread(&MissionSession::robots))
+      .def_prop_ro("time", in_one_thread(&MissionSession::time));
 }
 
 }  // namespace rubble::python

@@ -3,6 +3,8 @@ import os
 import re
 import subprocess
 import tempfile
+import threading
+import time
 import unittest
 
 import numpy as np
@@ -240,6 +242,42 @@ class Sessions(unittest.TestCase):
                 self.pile.vary(overrides)
             self.assertEqual(raised.exception.key, key)
             self.assertIn("settle", str(raised.exception))
+
+    def test_a_second_thread_is_refused_and_the_object_goes_on(self):
+        session = rubble.Session(self.pile, threads=1, observed=False)
+        alone = rubble.Session(self.pile, threads=1, observed=False)
+        camera = rubble.DepthCamera(self.pile, 200, 150, fov_deg=90, max_range=20, threads=1)
+        eye = rubble.pose([-2, 0, 0.5])
+        picture, done = camera.depth(eye), []
+        for work, ask in ((lambda: session.step(0.5), lambda: session.state("rover")),
+                          (lambda: camera.depth(eye), lambda: camera.depth(eye))):
+            refused, stop, calls = threading.Event(), threading.Event(), []
+
+            def go_on():
+                while not stop.is_set():
+                    try:
+                        work()
+                        calls.append(1)
+                    except rubble.RunError:  # the question came first
+                        pass
+
+            worker = threading.Thread(target=go_on)
+            worker.start()
+            deadline = time.monotonic() + 120
+            while not refused.is_set() and time.monotonic() < deadline:
+                try:
+                    ask()
+                except rubble.RunError as error:
+                    self.assertIn("each thread needs an object of its own", str(error))
+                    refused.set()
+            stop.set()
+            worker.join()
+            self.assertTrue(refused.is_set())
+            done.append(len(calls))
+        for _ in range(done[0]):
+            alone.step(0.5)
+        np.testing.assert_array_equal(session.state("rover")["links"], alone.state("rover")["links"])
+        np.testing.assert_array_equal(camera.depth(eye), picture)
 
     def test_mistakes(self):
         for call, key in ((lambda: self.session.drive("cat", 1), "robot"),

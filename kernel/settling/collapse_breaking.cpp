@@ -12,6 +12,9 @@ namespace {
 constexpr double kTogether = 0.3;
 // Time in which forces redistribute before further bonds fail: a quarter of a floor's period. unit: s
 constexpr double kRedistribution = 0.025;
+// A beam that follows a sinking column turns on its seat, and lies there loose from this on: its mortar is crushed. Our
+// choice. unit: rad
+constexpr double kSeatRotation = 0.02;
 // Time after which forces count as settled: a few periods of a floor. unit: s
 constexpr double kCalmTime = 0.25;
 
@@ -21,6 +24,7 @@ FailureOptions Collapse::Impl::failure_options(const BondGroup& group) const {
   FailureOptions f;
   f.together = kTogether;
   if (group.anchored && !settled.empty()) f.settled = &settled, f.overshoot = options.overshoot;
+  if (!sinking.empty()) f.seat_rotation = kSeatRotation;
   return f;
 }
 

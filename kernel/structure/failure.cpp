@@ -41,6 +41,11 @@ double use_of_rotation(const Bond& bond, const BondStatus& status, const StressR
   return most > 0 ? most / bond.section.steel.rupture_rotation : 0;
 }
 
+double use_of_seat(const StressResult& result, std::size_t i, double seat_rotation) {
+  if (!(seat_rotation > 0)) return 0;
+  return std::max(std::abs(result.rotation_s[i]), std::abs(result.rotation_t[i])) / seat_rotation;
+}
+
 std::vector<BondFailure> rate(const Structure& structure, const BondGroup& group,
                               const StressResult& result, const FailureOptions& options,
                               const std::vector<BondStatus>& status) {
@@ -53,7 +58,8 @@ std::vector<BondFailure> rate(const Structure& structure, const BondGroup& group
     SectionForces forces = result.forces[i];
     if (options.settled) forces = overshoot(forces, (*options.settled)[index], options.overshoot);
     const Utilization use = use_of(bond, state, forces);
-    const double torn = use_of_rotation(bond, state, result, i);
+    const double torn = bond.section.steel.area > 0 ? use_of_rotation(bond, state, result, i)
+                                                    : use_of_seat(result, i, options.seat_rotation);
     if (torn > use.value) {
       rated.push_back({index, FailureMode::bending, false, torn, true});
     } else {

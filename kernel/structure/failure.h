@@ -17,6 +17,7 @@ struct FailureOptions {
   // A sudden change overshoots by this share of it: bonds must carry f + overshoot (f - settled).
   double overshoot = 0;                        // unit: 1; range: 0 to 1
   const std::vector<SectionForces>* settled = nullptr;  // before the change, by bond; null: none
+  double seat_rotation = 0;  // by which a bond without bars comes off its seat; 0: never; unit: rad
   bool hinges = true;  // bars keep a bent section as a hinge until they tear; false: it breaks at once
 };
 
@@ -25,7 +26,7 @@ struct BondFailure {
   FailureMode mode = FailureMode::none;  // which strength was used up
   bool hinge = false;                    // it goes on as one
   double utilization = 0;                // when it failed; unit: 1
-  bool torn = false;                     // bars of its hinge
+  bool torn = false;                     // bars of its hinge, or off its seat
 };
 
 // One round: of those that are used up the worst, and all that are nearly as bad, fail. Writes `status`.

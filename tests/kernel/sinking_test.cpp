@@ -116,5 +116,25 @@ TEST(Sinking, AHouseOfBricksComesDownOverItsSinkingSide) {
   EXPECT_EQ(settle_pile(pile_of(b), alone).state_hash(), state.state_hash());
 }
 
+// Nothing ties a precast beam to its seat: it comes off when its column goes down.
+TEST(Sinking, PrecastBeamsComeOffTheSeatsOfASinkingColumn) {
+  BuildingSpec b;
+  b.kind = BuildingKind::precast;
+  b.storeys = 2, b.bays_x = b.bays_y = 2;
+  b.piece = 1.3, b.seed = 4;
+  b.cause.sinking = {{0, 0, 0.3, {}}};
+  const PileState state = settle(b);
+  EXPECT_TRUE(state.settled);
+  const Structure before = build_structures(b).damaged;
+  const std::vector<double> down = lowered(b, state);
+  int beams = 0;
+  for (std::size_t i = 0; i < down.size(); ++i) {
+    const Member& member = before.members[before.pieces[i].member];
+    if (member.place.footing) EXPECT_NEAR(down[i], 0.3, 1e-9);
+    beams += member.kind == MemberKind::beam && down[i] > 1;
+  }
+  EXPECT_GT(beams, 0);
+}
+
 }  // namespace sinking_test
 }  // namespace rubble

@@ -112,7 +112,8 @@ void run_scripts_of(const std::string& folder) {
   std::size_t count = 0;
   for (const auto& entry : fs::directory_iterator(RUBBLE_SOURCE_DIR "/" + folder)) {
     const fs::path path = entry.path();
-    if (path.extension() != ".lua" || path.stem() == "demonstration_pile") continue;
+    // The first is no mission, the robot of the second stands where the ruin of the whole mission leaves room: test Demo.
+    if (path.extension() != ".lua" || path.stem() == "demonstration_pile" || path.stem() == "demo") continue;
     run_script(path);
     EXPECT_EQ(run_rubble("check '" + path.string() + "'").exit_code, 0) << path;
     ++count;

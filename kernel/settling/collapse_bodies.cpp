@@ -67,9 +67,12 @@ std::vector<BondGroup> Collapse::Impl::groups_left_of(std::int32_t lead) {
 }
 
 void Collapse::Impl::replace(std::int32_t lead, const std::vector<BondGroup>& groups, bool always) {
-  if (!always && groups.size() == 1 &&
-      groups[0].anchored == parts.at(lead).stress->group().anchored)
-    return;
+  if (!always && groups.size() == 1) {
+    const BondGroup &before = parts.at(lead).stress->group(), &now = groups[0];
+    // A footing that was set down again may have a bond that the group before does not know.
+    const bool known = std::includes(before.bonds.begin(), before.bonds.end(), now.bonds.begin(), now.bonds.end());
+    if (now.anchored == before.anchored && known) return;
+  }
   const auto old = parts.find(lead);
   std::unique_ptr<GroupStress> whole;
   if (old != parts.end()) {

@@ -130,7 +130,9 @@ TEST(Sinking, PrecastBeamsComeOffTheSeatsOfASinkingColumn) {
   int beams = 0;
   for (std::size_t i = 0; i < down.size(); ++i) {
     const Member& member = before.members[before.pieces[i].member];
-    if (member.place.footing) EXPECT_NEAR(down[i], 0.3, 1e-9);
+    if (member.place.footing) {
+      EXPECT_NEAR(down[i], 0.3, 1e-9);
+    }
     beams += member.kind == MemberKind::beam && down[i] > 1;
   }
   EXPECT_GT(beams, 0);

@@ -31,14 +31,15 @@ struct Request {
   std::vector<double> depths = {0, 0.33, 0.67, 1};
   std::vector<std::string> set;
   int size = 96, samples = 1024, bake_rays = RenderOptions().bake_rays, threads = 0, regions = 12;
-  bool raw = false;
+  bool raw = false, twice = false;
 };
 
 struct Sum {
-  double mean_error = 0, worst_error = 0, bias = 0, similarity = 0, least_similarity = 1;
+  double mean_error = 0, worst_error = 0, bias = 0, similarity = 0, least_similarity = 1, noise = 0;
   int count = 0;
 
-  void add(const ViewComparison& c) {
+  void add(const ViewComparison& c, double noise_of_reference) {
+    noise += noise_of_reference;
     mean_error += c.mean_error, worst_error = std::max(worst_error, c.mean_error), bias += c.bias;
     similarity += c.similarity, least_similarity = std::min(least_similarity, c.similarity), ++count;
   }
@@ -64,6 +65,28 @@ void save(const Request& request, const std::string& name, const Picture& pictur
     write_png(request.pictures + name + ".png", {picture.width, picture.height, picture.rgb}, 6);
 }
 
+std::string noise_text(const Request& request, double noise) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f %%", 100 * noise);
+  return request.twice ? text : "-";
+}
+
+struct Expected {
+  LinearFrame frame;
+  double noise = 0;  // of one of the two that it is the mean of, against the other, as a mean error; 0: it is one alone
+};
+
+Expected draw_reference(Renderer& renderer, const ViewRays& view, const Vec3f& gains, const Request& request, int threads) {
+  Expected out{draw_view(renderer, view).frame, 0};
+  if (!request.twice) return out;
+  ViewRays again = view;
+  ++again.stamp_ns;  // other random numbers
+  const LinearFrame other = draw_view(renderer, again).frame;
+  out.noise = compare_views(out.frame, other, gains, request.regions, threads).mean_error;
+  for (std::size_t i = 0; i < out.frame.rgb.size(); ++i) out.frame.rgb[i] = (out.frame.rgb[i] + other.rgb[i]) / 2;
+  return out;
+}
+
 void measure(const std::string& ruin, const Request& request, GalleryPiles& piles, int threads,
              std::map<double, Sum>& sums) {
   const Mission mission = mission_of(request, ruin);
@@ -82,15 +105,15 @@ void measure(const std::string& ruin, const Request& request, GalleryPiles& pile
   Renderer reference(device, scene, options);
   for (const double depth : request.depths) {
     const ViewRays view = view_at(flight, depth, scenario, request.size);
-    const ViewComparison c = compare_views(draw_view(reference, view).frame, draw_view(fast, view).frame, gains,
-                                           request.regions, threads);
+    const Expected expected = draw_reference(reference, view, gains, request, threads);
+    const ViewComparison c = compare_views(expected.frame, draw_view(fast, view).frame, gains, request.regions, threads);
     char name[80];
     std::snprintf(name, sizeof name, "%s_%03.0f", ruin.c_str(), 100 * depth);
     save(request, std::string(name) + "_reference", c.expected), save(request, std::string(name) + "_fast", c.found);
-    std::printf("| %s | %.0f %% | %.1f %% | %+.1f %% | %.3f |\n", ruin.c_str(), 100 * depth, 100 * c.mean_error,
-                100 * c.bias, c.similarity);
+    std::printf("| %s | %.0f %% | %.1f %% | %+.1f %% | %.3f | %s |\n", ruin.c_str(), 100 * depth, 100 * c.mean_error,
+                100 * c.bias, c.similarity, noise_text(request, expected.noise).c_str());
     std::fflush(stdout);
-    sums[depth].add(c);
+    sums[depth].add(c, expected.noise);
   }
 }
 
@@ -98,12 +121,13 @@ ExitCode bench(const Request& request) {
   const int threads = request.threads > 0 ? request.threads : default_thread_count();
   GalleryPiles piles;
   std::map<double, Sum> sums;
-  std::printf("| ruin | depth | mean error | bias | SSIM |\n|---|---|---|---|---|\n");
+  std::printf("| ruin | depth | mean error | bias | SSIM | noise |\n|---|---|---|---|---|---|\n");
   for (const std::string& ruin : request.ruins) measure(ruin, request, piles, threads, sums);
-  std::printf("\n| depth | mean error | largest | bias | SSIM | least |\n|---|---|---|---|---|---|\n");
+  std::printf("\n| depth | mean error | largest | bias | SSIM | least | noise |\n|---|---|---|---|---|---|---|\n");
   for (const auto& [depth, s] : sums)
-    std::printf("| %.0f %% | %.1f %% | %.1f %% | %+.1f %% | %.3f | %.3f |\n", 100 * depth, 100 * s.mean_error / s.count,
-                100 * s.worst_error, 100 * s.bias / s.count, s.similarity / s.count, s.least_similarity);
+    std::printf("| %.0f %% | %.1f %% | %.1f %% | %+.1f %% | %.3f | %.3f | %s |\n", 100 * depth, 100 * s.mean_error / s.count,
+                100 * s.worst_error, 100 * s.bias / s.count, s.similarity / s.count, s.least_similarity,
+                noise_text(request, s.noise / s.count).c_str());
   return ExitCode::done;
 }
 
@@ -123,6 +147,7 @@ ExitCode run(int argc, char** argv) {
   app.add_option("--regions", request.regions, "Regions across and down")->check(CLI::Range(1, 64))->capture_default_str();
   app.add_option("--set", request.set, "Another key, as `rubble run --set`");
   app.add_flag("--raw", request.raw, "Without the filter of the reference's noise");
+  app.add_flag("--twice", request.twice, "Draw each reference twice, compare with the mean of both, and print as noise how far they are apart");
   app.add_option("--pictures", request.pictures, "Also write PREFIXruin_depth_reference.png and _fast.png");
   app.add_option("--threads", request.threads, "0: all processors")->check(CLI::Range(0, 1024));
   return parse_and_run(app, argc, argv, [&] { return bench(request); });

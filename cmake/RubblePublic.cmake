@@ -8,7 +8,6 @@ set(RUBBLE_PUBLIC_HEADERS
   io/state/checkpoint_file.h
   io/state/pile_state_file.h
   io/state/track_file.h
-  kernel/base/bits.h
   kernel/base/error.h
   kernel/base/hash.h
   kernel/base/math.h

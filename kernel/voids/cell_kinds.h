@@ -1,11 +1,10 @@
 // The kind of each cell of a grid, in two bits.
 #pragma once
 
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
-
-#include "kernel/base/bits.h"
 
 namespace rubble {
 
@@ -38,8 +37,8 @@ class CellKinds {
   std::size_t count(CellKind kind) const {
     std::size_t voids = 0, solids = 0;
     for (const std::uint64_t word : words_) {
-      voids += count_ones(word & kAllVoid);
-      solids += count_ones(word & ~kAllVoid);
+      voids += std::bitset<64>(word & kAllVoid).count();
+      solids += std::bitset<64>(word & ~kAllVoid).count();
     }
     return kind == CellKind::free_void ? voids : kind == CellKind::solid ? solids : size_ - voids - solids;
   }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kOutside = 0xfffffffeu;
 constexpr std::uint32_t kUnvisited = 0xffffffffu;
-constexpr double kSortedPerVoxel = 16;
+constexpr double kSortedPerVoxel = 16;  // levels of clearance that are sorted one by one
 
 // Floods the void from its widest places downwards; each place that is reached from none before it
 // is a peak. Where two floods meet is the throat between them, or, when one of the peaks hardly

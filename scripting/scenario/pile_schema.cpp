@@ -259,8 +259,9 @@ void add_cause(Schema& k, CollapseCause& c) {
       .unit("N s/m2");
   k.value("pile.building.cause.blast_at", c.blast_at, "Position of the blast.").between(-1000, 1000).unit("m");
   add_vehicle(k, c.vehicle);
-  k.list("pile.building.cause.sinking", c.sinking, "Footings of ground columns that sink into the ground within 2 s. What stands on them alone goes down with them; what the rest "
-         "of the building holds up stays.");
+  k.list("pile.building.cause.sinking", c.sinking,
+         "Footings of ground columns that sink into the ground within 2 s. What stands on them alone goes down with them; "
+         "what the rest of the building holds up stays.");
   k.item("pile.building.cause.sinking[].i", c.sinking, &SinkingFooting::i,
           "Number of the column along X, from 0 at the lowest x.")
       .between(0, 8);

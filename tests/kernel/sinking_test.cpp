@@ -8,28 +8,13 @@
 #include "kernel/settling/settle.h"
 #include "kernel/structure/building.h"
 #include "kernel/structure/failure.h"
+#include "building_scenes.h"
 
 namespace rubble {
 namespace sinking_test {
 
-BuildingSpec small_building() {
-  BuildingSpec b;
-  b.storeys = 2;
-  b.bays_x = b.bays_y = 1;
-  b.span_x = b.span_y = 4;
-  b.column = 0.3, b.beam_depth = 0.35, b.slab = 0.15;
-  b.infill = Infill::none;
-  b.piece = 1.3;
-  b.seed = 4;
-  return b;
-}
-
-Pile pile_of(const BuildingSpec& building) {
-  Pile pile;
-  pile.building = building;
-  pile.types = make_building_types(building);
-  return pile;
-}
+using testing::pile_of;
+using testing::small_building;
 
 PileState settle(const BuildingSpec& building) {
   SettleOptions options;

@@ -259,7 +259,7 @@ class Sessions(unittest.TestCase):
                         work()
                         calls.append(1)
                     except rubble.RunError:  # the question came first
-                        pass
+                        refused.set()
 
             worker = threading.Thread(target=go_on)
             worker.start()

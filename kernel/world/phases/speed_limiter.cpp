@@ -16,6 +16,9 @@ constexpr std::uint8_t kTouches = 0;   // find_rolling(): nothing is known of th
 constexpr std::uint8_t kRolls = 1;     // find_rolling(): the piece rolls at its contacts
 constexpr std::uint8_t kPushed = 2;    // find_rolling(): the piece also has a contact where it does not roll
 
+// Momentum that comes back to a piece may throw it this fast; unit: m/s.
+constexpr float kThrownBack = 12;
+
 constexpr float kNotAsked = -1;            // find_strikes(): the piece does not spin fast; unit: m/s
 
 Vec3f outwards(const Vec3f& v) { return {v.x, v.y, std::max(v.z, 0.0F)}; }
@@ -35,7 +38,7 @@ Vec3f find_excess(Vec3f velocity, const Vec3f& start, const Vec3f& striker) {
 
 // What a piece loses goes back to the only one that touches it, if that is as heavy: where two
 // meet, momentum is kept. With several, the one that squeezes is not known.
-void SpeedLimiter::return_momentum(std::size_t piece, const Vec3f& speed, StepMotions& motions) const {
+void SpeedLimiter::return_momentum(std::size_t piece, const Vec3f& speed, StepMotions& motions) {
   const std::int32_t other = neighbour_[piece];
   if (other < 0) return;
   const Body &light = data_.bodies[piece], &heavy = data_.bodies[other];
@@ -43,6 +46,7 @@ void SpeedLimiter::return_momentum(std::size_t piece, const Vec3f& speed, StepMo
   const Vec3f change = speed * float(light.mass / heavy.mass);
   motions.velocities[other].linear += change;
   motions.displacements[other].linear += change * float(settings_.options.step);
+  given_back_.push_back(other);
 }
 
 bool SpeedLimiter::may_kick(const Body& body) const { return body.awake && body.touching && body.free_index >= 0; }
@@ -114,17 +118,13 @@ void SpeedLimiter::look_around_kicked(const StepPairs& step) {
   });
 }
 
-void SpeedLimiter::clamp(std::int32_t i, StepMotions& motions) {
+// How far a piece goes sideways and upwards beyond what its own motion before or what strikes it explains.
+Vec3f SpeedLimiter::find_beyond(std::int32_t i, const StepMotions& motions) const {
   const Body& body = data_.bodies[i];
-  const float down = -motions.velocities[i].linear.z;
-  const float most_down = std::max(sinking_before(body), fastest_[i]) + kFreeKick;
-  if (on_ground_[i] != 0 && down > most_down) {
-    motions.velocities[i].linear.z *= most_down / down, motions.displacements[i].linear.z *= most_down / down;
-  }
   const float before = speed_before(body);
-  Vec3f& velocity = motions.velocities[i].linear;
+  const Vec3f& velocity = motions.velocities[i].linear;
   const float after = norm(outwards(velocity));
-  if (after <= before) return;
+  if (after <= before) return {};
   Vec3f excess = outwards(velocity) * (1 - before / after);
   const auto allow_from = [&](const Vec3f& start) {
     const Vec3f beyond = find_excess(velocity, start, strikers_[i]);
@@ -132,17 +132,39 @@ void SpeedLimiter::clamp(std::int32_t i, StepMotions& motions) {
   };
   allow_from({});
   if (neighbour_[i] != kSeveral) allow_from(body.linear);
+  return excess;
+}
+
+void SpeedLimiter::clamp(std::int32_t i, StepMotions& motions) {
+  const Body& body = data_.bodies[i];
+  const float down = -motions.velocities[i].linear.z;
+  const float most_down = std::max(sinking_before(body), fastest_[i]) + kFreeKick;
+  if (on_ground_[i] != 0 && down > most_down) {
+    motions.velocities[i].linear.z *= most_down / down, motions.displacements[i].linear.z *= most_down / down;
+  }
+  const Vec3f excess = find_beyond(i, motions);
   if (norm(excess) <= 0) return;
   return_momentum(i, excess, motions);
-  velocity -= excess;
+  slow_down(i, excess, motions);
+}
+
+void SpeedLimiter::slow_down(std::int32_t i, const Vec3f& excess, StepMotions& motions) const {
+  motions.velocities[i].linear -= excess;
   motions.displacements[i].linear -= excess * float(settings_.options.step);
 }
 
 void SpeedLimiter::clamp_ejections(const StepPairs& step, StepMotions& motions) {
   if (!find_kicked(step, motions)) return;
   look_around_kicked(step);
+  given_back_.clear();
   for (std::int32_t i : step.awake) {
     if (kicked_[i] != 0 && may_kick(data_.bodies[i])) clamp(i, motions);
+  }
+  // A piece that was thrown itself may have been clamped before the momentum of another came back to it: a sleeper that
+  // wakes under what a slab pressed on it with throws its neighbour, and would be shot away in its place.
+  for (const std::int32_t i : given_back_) {
+    const Vec3f beyond = find_beyond(i, motions);
+    if (norm(beyond) > kThrownBack) slow_down(i, beyond, motions);
   }
 }
 

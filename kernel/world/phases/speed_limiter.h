@@ -35,8 +35,10 @@ class SpeedLimiter {
   float sinking_before(const Body& body) const;
   bool find_kicked(const StepPairs& step, const StepMotions& motions);
   void look_around_kicked(const StepPairs& step);
+  Vec3f find_beyond(std::int32_t body, const StepMotions& motions) const;
+  void slow_down(std::int32_t body, const Vec3f& excess, StepMotions& motions) const;
   void clamp(std::int32_t body, StepMotions& motions);
-  void return_momentum(std::size_t piece, const Vec3f& speed, StepMotions& motions) const;
+  void return_momentum(std::size_t piece, const Vec3f& speed, StepMotions& motions);
 
   const WorldData& data_;
   const WorldSettings& settings_;
@@ -48,6 +50,7 @@ class SpeedLimiter {
   std::vector<Vec3f> strikers_;          // by body: velocity of that point; unit: m/s
   std::vector<float> strikes_;           // by body that spins fast: closing speed of a contact at most; empty: none does; unit: m/s
   std::vector<std::int32_t> neighbour_;  // by body: the only one that touches it
+  std::vector<std::int32_t> given_back_;  // bodies that got momentum back in this step
 };
 
 }  // namespace rubble

@@ -6,6 +6,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -115,13 +116,22 @@ Series fly(Device& device, Renderer& renderer, const BenchView& view, int size, 
   const Intrinsics camera = bench_camera(size);
   const std::vector<Pose> poses = view.path(request.frames + kWarm);
   Series series;
+  std::optional<RenderedView> ahead;
+  // Seconds pass before the first that counts, so that the exposure is that of this view.
+  const auto step_to = [](std::size_t i) { return std::int64_t(i < kWarm ? 2000000000 : 33333333); };
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const auto start = Clock::now();
     const double processor_start = processor_ms();
     const DeviceTraffic before = device.traffic();
-    // Seconds pass before the first that counts, so that the exposure is that of this view.
-    session.now_ns += i < kWarm ? 2000000000 : 33333333;
-    RenderedView seen = renderer.view({session.now_ns, camera, poses[i]});
+    session.now_ns += step_to(i);
+    // As a Camera does: a device draws the next while this one is read.
+    RenderedView seen = ahead ? std::move(*ahead) : renderer.view({session.now_ns, camera, poses[i]});
+    seen.begin();
+    ahead.reset();
+    if (renderer.runs_ahead() && i + 1 < poses.size()) {
+      ahead = renderer.view({session.now_ns + step_to(i + 1), camera, poses[i + 1]});
+      ahead->begin();
+    }
     seen.rgb(), seen.depth();
     const RenderTimes times = seen.times();
     const Frame frame = std::move(seen).into_frame(int(i));

@@ -45,6 +45,10 @@ RenderedView Renderer::view(const ViewRays& rays, const ViewRays* next) {
   return RenderedView(*source_, rays, next);
 }
 
+bool Renderer::runs_ahead() const {
+  return source_->scene.device.runs_ahead() && !source_->scene.is_traced();
+}
+
 void Renderer::add_drops(const ExposedView& exposed, std::vector<float>& radiance) {
   source_->drops.add(exposed, radiance);
 }

@@ -36,6 +36,8 @@ class Renderer {
   // next frame, for streams that need it; null: there is none.
   // The renderer must outlive the view. Throws RunError: sizes or focal lengths out of range.
   RenderedView view(const ViewRays& rays, const ViewRays* next = nullptr);
+  // Whether RenderedView::begin() has an effect.
+  bool runs_ahead() const;
   // Adds drops and flakes to the light of an exposure, 3 floats a pixel as in linear frames; unit: kcd/m2. No effect
   // without rain and snow.
   void add_drops(const ExposedView& exposed, std::vector<float>& radiance);

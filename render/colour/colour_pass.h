@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -29,6 +30,14 @@ struct SurfaceImages {
   bool has_rays() const { return ray_values; }
 };
 
+// Display colours that a device draws, or has drawn. The pass must outlive them; it may draw others meanwhile.
+class DrawnColours {
+ public:
+  virtual ~DrawnColours() = default;
+  // 3 bytes a pixel, once. Returns the exposure that they were drawn with.
+  virtual float take(std::vector<std::uint8_t>& rgb) = 0;
+};
+
 class ColourPass {
  public:
   virtual ~ColourPass() = default;
@@ -41,10 +50,8 @@ class ColourPass {
   virtual void draw(const ViewProjection& view, const Pose& world_from_camera,
                     const SurfaceImages& surfaces, const FrameLight& light, std::optional<float> exposure,
                     bool metered) = 0;
-  // What was drawn, as 3 bytes a pixel. smooth: with smooth edges (passes/antialias.h).
-  virtual void finish(const SurfaceImages& surfaces, bool smooth) = 0;
-  // Reads that. Returns the exposure of what was drawn.
-  virtual float read(std::vector<std::uint8_t>& rgb) = 0;
+  // What was drawn; a device starts now. smooth: with smooth edges (passes/antialias.h).
+  virtual std::unique_ptr<DrawnColours> finish(const SurfaceImages& surfaces, bool smooth) = 0;
 
   // Radiance before exposure and tone mapping, 4 floats a pixel (R, G, B in kcd/m2).
   virtual std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,

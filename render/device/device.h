@@ -66,6 +66,8 @@ class Device {
 
   virtual const DeviceInfo& info() const = 0;
   virtual DeviceTraffic traffic() const { return {}; }
+  // It draws while the processor goes on: see RenderedView::begin().
+  virtual bool runs_ahead() const { return false; }
   // One thread at a time may use a device and what it made; this moves it to the calling one.
   virtual void make_current() {}
 

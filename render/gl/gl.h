@@ -20,6 +20,7 @@ namespace rubble {
   X(ClearNamedFramebufferfv, CLEARNAMEDFRAMEBUFFERFV)           \
   X(ClearNamedFramebufferuiv, CLEARNAMEDFRAMEBUFFERUIV)         \
   X(ClipControl, CLIPCONTROL)                                   \
+  X(ClientWaitSync, CLIENTWAITSYNC)                             \
   X(CompileShader, COMPILESHADER)                               \
   X(CopyImageSubData, COPYIMAGESUBDATA)                         \
   X(CopyNamedBufferSubData, COPYNAMEDBUFFERSUBDATA)             \
@@ -34,6 +35,7 @@ namespace rubble {
   X(DeleteFramebuffers, DELETEFRAMEBUFFERS)                     \
   X(DeleteProgram, DELETEPROGRAM)                               \
   X(DeleteShader, DELETESHADER)                                 \
+  X(DeleteSync, DELETESYNC)                                     \
   X(DeleteTextures, DELETETEXTURES)                             \
   X(DeleteVertexArrays, DELETEVERTEXARRAYS)                     \
   X(DepthFunc, DEPTHFUNC)                                       \
@@ -45,14 +47,13 @@ namespace rubble {
   X(DrawArraysIndirect, DRAWARRAYSINDIRECT)                     \
   X(Enable, ENABLE)                                             \
   X(EnableVertexArrayAttrib, ENABLEVERTEXARRAYATTRIB)           \
-  X(Finish, FINISH)                                             \
+  X(FenceSync, FENCESYNC)                                       \
   X(Flush, FLUSH)                                               \
   X(FrontFace, FRONTFACE)                                       \
   X(GenTextures, GENTEXTURES)                                   \
   X(GenerateTextureMipmap, GENERATETEXTUREMIPMAP)               \
   X(GetError, GETERROR)                                         \
   X(GetIntegerv, GETINTEGERV)                                   \
-  X(GetNamedBufferSubData, GETNAMEDBUFFERSUBDATA)               \
   X(GetProgramInfoLog, GETPROGRAMINFOLOG)                       \
   X(GetProgramiv, GETPROGRAMIV)                                 \
   X(GetShaderInfoLog, GETSHADERINFOLOG)                         \
@@ -65,9 +66,11 @@ namespace rubble {
   X(GetUniformLocation, GETUNIFORMLOCATION)                     \
   X(LinkProgram, LINKPROGRAM)                                   \
   X(AttachShader, ATTACHSHADER)                                 \
+  X(MapNamedBufferRange, MAPNAMEDBUFFERRANGE)                   \
   X(MemoryBarrier, MEMORYBARRIER)                               \
   X(MultiDrawElementsIndirect, MULTIDRAWELEMENTSINDIRECT)       \
   X(NamedBufferData, NAMEDBUFFERDATA)                           \
+  X(NamedBufferStorage, NAMEDBUFFERSTORAGE)                     \
   X(NamedBufferSubData, NAMEDBUFFERSUBDATA)                     \
   X(NamedFramebufferDrawBuffers, NAMEDFRAMEBUFFERDRAWBUFFERS)   \
   X(NamedFramebufferReadBuffer, NAMEDFRAMEBUFFERREADBUFFER)     \
@@ -104,6 +107,7 @@ namespace rubble {
 struct GlTraffic {
   std::uint64_t given = 0, taken = 0;  // to the card and back; unit: byte
   std::uint64_t waits = 0;             // of the processor for the card
+  std::uint64_t asked = 0, done = 0;   // numbers of what was asked of the card last, and of what it is known to have done
 };
 
 // The functions of one context. GL is a set of calls on a current context, so the table is const.

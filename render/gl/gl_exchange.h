@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "render/gl/gl_objects.h"
@@ -32,21 +33,50 @@ class GlMirror {
   std::vector<char> there_;  // as the card has it
 };
 
-// Pixels that come back while the card goes on.
-class GlReadback {
+// Bytes that were asked of the card, and come back while it and the processor go on.
+class GlComing {
  public:
-  explicit GlReadback(const Gl& gl) : gl_(&gl), buffer_(gl) {}
+  explicit GlComing(const Gl& gl) : gl_(&gl), buffer_(gl) {}
+  ~GlComing();
+  GlComing(const GlComing&) = delete;
+  GlComing& operator=(const GlComing&) = delete;
 
-  // Of what is bound to read, rows from its first on.
-  void ask(int width, int height, GLenum format, GLenum type);
-  // What was asked for last. Waits, unless somebody has waited for the card since then.
-  void take(void* pixels);
+  std::size_t size() const { return bytes_; }  // unit: byte
+  // Waits until the card has done what was asked of it before, and no longer.
+  void take(void* to, std::size_t offset, std::size_t bytes);
+  void take(void* to) { take(to, 0, bytes_); }
 
  private:
+  friend class GlReadback;
+  void make_room(std::size_t bytes);
+  void sign();  // all is asked for
+
   const Gl* gl_;
   GlBuffer buffer_;
+  const char* memory_ = nullptr;  // of the buffer
+  GLsync fence_ = nullptr;
   std::size_t room_ = 0, bytes_ = 0;  // of the buffer; of what was asked for
-  std::uint64_t waits_ = 0;           // GlTraffic::waits when it was
+  std::uint64_t asked_ = 0;           // as GlTraffic::asked
+};
+
+class GlReadback {
+ public:
+  explicit GlReadback(const Gl& gl) : gl_(&gl) {}
+
+  // Of what is bound to read, rows from its first on.
+  std::shared_ptr<GlComing> ask(int width, int height, GLenum format, GLenum type);
+  struct Part {
+    GLuint buffer;
+    std::size_t offset, bytes;
+  };
+  // Of buffers, one after the other.
+  std::shared_ptr<GlComing> ask(const std::vector<Part>& parts);
+
+ private:
+  std::shared_ptr<GlComing> find_free(std::size_t bytes);
+
+  const Gl* gl_;
+  std::vector<std::shared_ptr<GlComing>> all_;  // those that nobody else has are free
 };
 
 }  // namespace rubble

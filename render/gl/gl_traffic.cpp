@@ -2,6 +2,15 @@
 
 namespace rubble {
 
+namespace {
+
+void count_wait(const Gl& gl) {
+  ++gl.traffic->waits;
+  gl.traffic->done = gl.traffic->asked;
+}
+
+}  // namespace
+
 std::size_t bytes_of_pixel(GLenum format, GLenum type) {
   const bool one = format == GL_RED || format == GL_RED_INTEGER || format == GL_DEPTH_COMPONENT;
   const bool two = format == GL_RG || format == GL_RG_INTEGER;
@@ -31,26 +40,15 @@ void give_image(const Gl& gl, GLuint texture, int level, const GlRegion& r, GLen
 }
 
 void take_pixels(const Gl& gl, int width, int height, GLenum format, GLenum type, void* pixels) {
-  ++gl.traffic->waits;
+  count_wait(gl);
   gl.traffic->taken += std::size_t(width) * std::size_t(height) * bytes_of_pixel(format, type);
   gl.ReadPixels(0, 0, width, height, format, type, pixels);
 }
 
 void take_image(const Gl& gl, GLuint texture, GLenum format, GLenum type, std::size_t bytes, void* texels) {
-  ++gl.traffic->waits;
+  count_wait(gl);
   gl.traffic->taken += bytes;
   gl.GetTextureImage(texture, 0, format, type, GLsizei(bytes), texels);
-}
-
-void take_buffer(const Gl& gl, GLuint buffer, std::size_t offset, std::size_t bytes, void* data, bool waits) {
-  gl.traffic->waits += waits;
-  gl.traffic->taken += bytes;
-  gl.GetNamedBufferSubData(buffer, GLintptr(offset), GLsizeiptr(bytes), data);
-}
-
-void wait_for_all(const Gl& gl) {
-  ++gl.traffic->waits;
-  gl.Finish();
 }
 
 }  // namespace rubble

@@ -22,9 +22,6 @@ void give_image(const Gl& gl, GLuint texture, int level, const GlRegion& region,
 // These wait until the card has done all that was asked of it before.
 void take_pixels(const Gl& gl, int width, int height, GLenum format, GLenum type, void* pixels);  // of what is bound to read
 void take_image(const Gl& gl, GLuint texture, GLenum format, GLenum type, std::size_t bytes, void* texels);
-// Of a buffer. waits: false: somebody has waited for it already.
-void take_buffer(const Gl& gl, GLuint buffer, std::size_t offset, std::size_t bytes, void* data, bool waits);
-void wait_for_all(const Gl& gl);
 
 std::size_t bytes_of_pixel(GLenum format, GLenum type);
 

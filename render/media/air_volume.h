@@ -27,6 +27,8 @@ class AirVolume {
   // Slice k of the table is at the distance r along the ray with r / (r + 2 m) = k / (kSlices - 1);
   // the last is at infinity, reckoned as kFarthest.
   static constexpr double kFarthest = 300;  // unit: m
+  // Whether each ray of the table has pixels of an image, so that what they show tells how much of it is read.
+  static bool has_pixels(int width, int height) { return width >= kColumns && height >= kRows; }
   static double slice_distance(int slice);
 
   // Before a view. drops_drawn: without the drops that cameras draw one by one. farthest: for each ray of the table, the

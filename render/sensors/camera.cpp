@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -66,6 +67,14 @@ struct Camera::State {
   ViewRays right_of(ViewRays view) const;
 
   RenderedView open_view(int index);
+  // A view that a device has begun while the frame before was read.
+  struct Ahead {
+    int index;
+    RenderedView view;
+  };
+  std::optional<Ahead> ahead;
+  RenderedView open_begun_view(int index);
+  void begin_next(int index);
   std::vector<MomentNearby> way_between(std::int64_t from, std::int64_t to, std::int64_t frame_ns, const Pose& at_frame,
                                         RenderedView& view) const;
   Frame take_ideal(int index);
@@ -164,6 +173,19 @@ RenderedView Camera::State::open_view(int index) {
   return renderer.view(view_at(index), &next);
 }
 
+RenderedView Camera::State::open_begun_view(int index) {
+  std::optional<Ahead> begun = std::exchange(ahead, {});
+  if (begun && begun->index == index) return std::move(begun->view);
+  return open_view(index);
+}
+
+// So that a device has work while the processor reads and keeps the frame.
+void Camera::State::begin_next(int index) {
+  if (index + 1 >= int(flight.stamps_ns.size()) || !renderer.runs_ahead()) return;
+  ahead = Ahead{index + 1, open_view(index + 1)};
+  ahead->view.begin();
+}
+
 std::vector<float> Camera::State::measure_depth(int index, RenderedView& view) {
   if (spec.depth_sensor.type == DepthSensorType::none) return {};
   const auto& normals =
@@ -178,13 +200,16 @@ std::vector<float> Camera::State::measure_depth(int index, RenderedView& view) {
 }
 
 Frame Camera::State::take_ideal(int index) {
-  RenderedView view = open_view(index);
+  RenderedView view = open_begun_view(index);
+  view.begin();
+  const bool stereo = spec.baseline > 0;  // the right image needs the exposure of the left
+  if (!stereo) begin_next(index);
   std::vector<float> measured = measure_depth(index, view);
   const ViewRays right = right_of(view.rays());
   const float exposed = view.exposure();
   Frame frame = std::move(view).into_frame(index, spec.channels);
   frame.measured_depth = std::move(measured);
-  if (spec.baseline > 0) frame.rgb_right = renderer.view(right).rgb_at(exposed);
+  if (stereo) frame.rgb_right = renderer.view(right).rgb_at(exposed), begin_next(index);
   return frame;
 }
 

@@ -49,7 +49,7 @@ std::vector<float> with_neighbours(const std::vector<float>& table) {
 std::vector<float> farthest_in_air(const ViewRays& view, const std::vector<float>& depth_values, ThreadPool& pool) {
   constexpr int kColumns = AirVolume::kColumns, kRows = AirVolume::kRows;
   const Intrinsics& k = view.intrinsics;
-  if (!view.plain() || k.width < kColumns || k.height < kRows) return {};
+  if (!view.plain() || !AirVolume::has_pixels(k.width, k.height)) return {};
   // The longest ray that reaches unit depth.
   const double x = std::max(k.cx + 0.5, k.width - k.cx) / k.fx,
                y = std::max(k.cy + 0.5, k.height - k.cy) / k.fy;
@@ -147,8 +147,8 @@ void ColourDrawer::set_bounce(bool shows, DrawnSurfaces& surfaces) {
     scene_.leave_bounce_out();
 }
 
-void ColourDrawer::draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces,
-                               std::optional<float> exposure, ColourImage& image) {
+void ColourDrawer::start_shaded(const ViewRays& view, DrawnSurfaces& surfaces,
+                                std::optional<float> exposure, StartedColours& out) {
   const Stopwatch start;
   const ViewProjection projection = projection_of(view);
   const SurfaceImages images = surfaces.images();
@@ -171,24 +171,29 @@ void ColourDrawer::draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces,
     }
   }
   resolve_->draw(projection, view.world_from_camera, images, light, exposure, metered);
-  image.resolve = start.time();
+  out.image.resolve = start.time();
   const Stopwatch finish;
-  resolve_->finish(images, scene_.options.antialias);
-  image.finish = finish.time();
-  const Stopwatch read;
-  image.exposure = resolve_->read(image.rgb);
-  image.read = read.time();
+  out.coming = resolve_->finish(images, scene_.options.antialias);
+  out.image.finish = finish.time();
 }
 
-ColourImage ColourDrawer::draw(const ViewRays& view, DrawnSurfaces& surfaces,
-                               std::optional<float> exposure) {
+StartedColours ColourDrawer::start(const ViewRays& view, DrawnSurfaces& surfaces, std::optional<float> exposure) {
   scene_.move_to(view.stamp_ns);
-  ColourImage image;
+  StartedColours out;
   if (reference_)
-    draw_traced(view, exposure, image);
+    draw_traced(view, exposure, out.image);
   else
-    draw_shaded(view, surfaces, exposure, image);
-  return image;
+    start_shaded(view, surfaces, exposure, out);
+  return out;
+}
+
+ColourImage ColourDrawer::collect(StartedColours started) {
+  ColourImage& image = started.image;
+  if (!started.coming) return std::move(image);
+  const Stopwatch read;
+  image.exposure = started.coming->take(image.rgb);
+  image.read = read.time();
+  return std::move(image);
 }
 
 std::vector<float> ColourDrawer::draw_radiance(const ViewRays& view, DrawnSurfaces& surfaces) {

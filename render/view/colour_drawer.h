@@ -21,6 +21,12 @@ struct ColourImage {
   PassTime resolve, read, finish;  // as RenderTimes
 };
 
+// Colours on their way from the device, or there.
+struct StartedColours {
+  ColourImage image;                      // what is known of it
+  std::unique_ptr<DrawnColours> coming;  // null: all
+};
+
 class ColourDrawer {
  public:
   // The scene must outlive it.
@@ -30,7 +36,8 @@ class ColourDrawer {
   void restart();
 
   // exposure: as ColourImage's; none: metered on the view itself.
-  ColourImage draw(const ViewRays& view, DrawnSurfaces& surfaces, std::optional<float> exposure);
+  StartedColours start(const ViewRays& view, DrawnSurfaces& surfaces, std::optional<float> exposure);
+  static ColourImage collect(StartedColours started);  // waits for the device
   // Before exposure and tone mapping: 3 floats a pixel; unit: kcd/m2. Without the drops of DropDrawer.
   std::vector<float> draw_radiance(const ViewRays& view, DrawnSurfaces& surfaces);
 
@@ -42,7 +49,7 @@ class ColourDrawer {
   void draw_traced(const ViewRays& view, std::optional<float> exposure, ColourImage& image) const;
   void light_shown(DrawnSurfaces& surfaces);             // finds the light of what shows
   void set_bounce(bool shows, DrawnSurfaces& surfaces);  // light of the lamp by way of surfaces
-  void draw_shaded(const ViewRays& view, DrawnSurfaces& surfaces, std::optional<float> exposure, ColourImage& image);
+  void start_shaded(const ViewRays& view, DrawnSurfaces& surfaces, std::optional<float> exposure, StartedColours& out);
   float expose(const MeteredImage& metered) const;
 
   LitScene& scene_;

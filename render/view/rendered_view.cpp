@@ -32,6 +32,7 @@ struct RenderedView::State {
   std::optional<ViewRays> next;
   RenderTimes times;
   std::unique_ptr<DrawnSurfaces> surfaces;  // none: not drawn yet
+  std::optional<StartedColours> started;  // colour, by begin()
   std::optional<ColourImage> colour;
   std::optional<std::vector<float>> radiance;
   TruthImages truth;
@@ -47,6 +48,7 @@ struct RenderedView::State {
 
   DrawnSurfaces& drawn();
   ColourImage draw_colour(std::optional<float> exposure);
+  void note(const ColourImage& image);  // its times
   // With the scene at the view's moment.
   DrawnView view_of_truth(const ViewRays* following);
 };
@@ -62,9 +64,13 @@ DrawnSurfaces& RenderedView::State::drawn() {
 }
 
 ColourImage RenderedView::State::draw_colour(std::optional<float> exposure) {
-  ColourImage image = source.colours.draw(rays, drawn(), exposure);
-  times.resolve = image.resolve, times.read = image.read, times.finish = image.finish;
+  ColourImage image = ColourDrawer::collect(source.colours.start(rays, drawn(), exposure));
+  note(image);
   return image;
+}
+
+void RenderedView::State::note(const ColourImage& image) {
+  times.resolve = image.resolve, times.read = image.read, times.finish = image.finish;
 }
 
 DrawnView RenderedView::State::view_of_truth(const ViewRays* following) {
@@ -75,7 +81,7 @@ DrawnView RenderedView::State::view_of_truth(const ViewRays* following) {
 
 RenderedView::RenderedView(ViewSource& source, const ViewRays& rays, const ViewRays* next) {
   check_view(rays);
-  state_.reset(new State{source, rays, {}, {}, nullptr, {}, {}, {}});
+  state_.reset(new State{source, rays, {}, {}, nullptr, {}, {}, {}, {}});
   if (next) state_->next = *next;
 }
 
@@ -84,6 +90,13 @@ RenderedView::RenderedView(RenderedView&&) noexcept = default;
 RenderedView& RenderedView::operator=(RenderedView&&) noexcept = default;
 
 const ViewRays& RenderedView::rays() const { return state_->rays; }
+
+void RenderedView::begin() {
+  State& s = *state_;
+  const LitScene& scene = s.source.scene;
+  if (s.colour || s.started || !scene.device.runs_ahead() || scene.is_traced()) return;
+  s.started = s.source.colours.start(s.rays, s.drawn(), std::nullopt);
+}
 
 const std::vector<float>& RenderedView::depth() { return state_->drawn().planar_depth(); }
 
@@ -98,8 +111,15 @@ std::vector<std::uint32_t> RenderedView::instances() {
 }
 
 const std::vector<std::uint8_t>& RenderedView::rgb() {
-  if (!state_->colour) state_->colour = state_->draw_colour(std::nullopt);
-  return state_->colour->rgb;
+  State& s = *state_;
+  if (!s.colour && s.started) {
+    s.source.scene.device.make_current();
+    s.colour = ColourDrawer::collect(std::move(*s.started));
+    s.started.reset();
+    s.note(*s.colour);
+  }
+  if (!s.colour) s.colour = s.draw_colour(std::nullopt);
+  return s.colour->rgb;
 }
 
 float RenderedView::exposure() {

@@ -91,12 +91,14 @@ bool DrawnSurfaces::in_pass() const {
 // Another drawing might name another triangle where two lie at the very same depth, so the images
 // are kept. Rays have no history: casting them again gives the same.
 void DrawnSurfaces::save() {
+  if (in_raster()) left_ = drawer_.raster_.leave();
+  if (left_) return;
   ids(), planar_depth(), distances(), triangles();
   saved_depth_values_ = depth_values();
 }
 
 std::size_t DrawnSurfaces::triangles() {
-  if (!triangles_) triangles_ = in_raster() ? drawer_.visibility_.counts().triangles : 0;
+  if (!triangles_) triangles_ = left_ ? left_->triangles() : in_raster() ? drawer_.visibility_.counts().triangles : 0;
   return *triangles_;
 }
 
@@ -137,7 +139,7 @@ SurfaceImages DrawnSurfaces::front_images() {
 
 const std::vector<std::uint32_t>& DrawnSurfaces::ids() {
   if (ids_.empty())
-    ids_ = view_.plain() ? drawer_.raster_.read_ids() : drawer_.rays_->ids();
+    ids_ = left_ ? left_->ids() : view_.plain() ? drawer_.raster_.read_ids() : drawer_.rays_->ids();
   return ids_;
 }
 
@@ -170,6 +172,7 @@ std::optional<std::vector<std::uint32_t>> DrawnSurfaces::shown_pieces() {
 }
 
 const std::vector<float>& DrawnSurfaces::depth_values() {
+  if (left_) return left_->depth_values();
   if (!in_pass()) return saved_depth_values_;
   return view_.plain() ? drawer_.raster_.depth_values() : drawer_.rays_->depth_values();
 }

@@ -78,6 +78,7 @@ class DrawnSurfaces {
   std::vector<std::uint32_t> ids_;  // each empty until first asked for
   std::vector<float> planar_depth_, distances_;
   std::vector<float> saved_depth_values_;
+  std::unique_ptr<LeftImages> left_;  // another view is drawn, and the device has the images of this one
   std::vector<GlassLayer> behind_;  // glass
   bool found_behind_ = false;
 };

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "kernel/base/portable_math.h"
+#include "render/devices/gl/gl_device.h"
 #include "render/devices/software/software_device.h"
 #include "render/sensors/exposure_control.h"
 #include "render/sensors/image_sensor.h"
@@ -34,6 +35,32 @@ TEST(Camera, WithEveryStageOffIsTheRenderer) {
     EXPECT_EQ(a.stamp_ns, b.stamp_ns);
     EXPECT_EQ(a.exposure_s, 0);
     EXPECT_TRUE(a.measured_depth.empty() && a.rgb_right.empty() && a.events.empty());
+  }
+}
+
+// A card draws the next frame while one is read.
+TEST(Camera, GivesTheSameFramesWhereADeviceRunsAhead) {
+  const Scene scene = make_heap(60, 2);
+  GlDevice device;
+  const Flight flight = fly(4, [](double t) { return look_at({5 - 12 * t, 1, 1.4}, {0, 0, 0.5}); });
+  CameraSpec spec;
+  spec.intrinsics = pinhole(64, 48, 40);
+  spec.channels = {find_image_stream("flow")};
+  for (const double baseline : {0.0, 0.1}) {
+    spec.baseline = baseline;
+    Renderer renderer(device, scene, plain());
+    ASSERT_TRUE(renderer.runs_ahead());
+    Camera camera(renderer, spec, flight);
+    for (int i = 0; i < camera.frames(); ++i) {
+      const Frame frame = camera.take(i);
+      Renderer fresh(device, scene, plain());
+      const Frame alone = Camera(fresh, spec, flight).take(i);
+      EXPECT_TRUE(frame.rgb == alone.rgb && frame.rgb_right == alone.rgb_right) << i << " " << baseline;
+      const auto &flow = std::get<std::vector<float>>(frame.truth.at("flow")), &flow_alone = std::get<std::vector<float>>(alone.truth.at("flow"));
+      EXPECT_EQ(0, std::memcmp(flow.data(), flow_alone.data(), flow_alone.size() * sizeof(float))) << i << " " << baseline;
+      EXPECT_EQ(0, std::memcmp(frame.depth.data(), alone.depth.data(), alone.depth.size() * sizeof(float)));
+      EXPECT_EQ(frame.rgb_right.empty(), baseline == 0);
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "kernel/base/portable_math.h"
+#include "render/devices/gl/gl_device.h"
 #include "render/devices/software/software_device.h"
 #include "render/renderer.h"
 #include "tests/render/cached_options.h"
@@ -117,6 +118,54 @@ TEST(RenderedView, GivesItsChannelsInAnyOrder) {
     const int channel = pair / int(open.size());
     ASSERT_EQ(ask(open[view], channel), alone[view][std::size_t(channel)])
         << "view " << view << ", channel " << channel;
+  }
+}
+
+// The same of a device that draws while others are asked for.
+TEST(RenderedView, MayBeBegunBeforeOthersAreRead) {
+  GlDevice device;
+  ASSERT_TRUE(device.runs_ahead());
+  const ViewRays next = views().back();
+  std::vector<std::vector<std::string>> alone;
+  for (const ViewRays& rays : views()) {
+    Renderer renderer(device, restless_heap(), small());
+    alone.emplace_back();
+    for (int channel = 0; channel < kChannels; ++channel) {
+      RenderedView view = renderer.view(rays, &next);
+      alone.back().push_back(ask(view, channel));
+    }
+  }
+  EXPECT_NE(alone[0][1], alone[1][1]) << "views that look alike would prove nothing";
+  Renderer renderer(device, restless_heap(), small());
+  std::vector<RenderedView> begun;
+  for (const ViewRays& rays : views()) begun.push_back(renderer.view(rays, &next)), begun.back().begin();
+  for (std::size_t view = begun.size(); view-- > 0;) {
+    for (int channel = 0; channel < kChannels; ++channel)
+      EXPECT_TRUE(ask(begun[view], channel) == alone[view][std::size_t(channel)])
+          << "view " << view << ", channel " << channel;
+  }
+}
+
+// Of two views that were begun.
+std::uint64_t count_waits(Device& device, Renderer& renderer, std::size_t first) {
+  std::vector<RenderedView> begun;
+  const std::uint64_t before = device.traffic().waits;
+  for (const ViewRays& rays : {views()[0], views()[1]}) begun.push_back(renderer.view(rays)), begun.back().begin();
+  for (const std::size_t view : {first, 1 - first}) begun[view].rgb(), begun[view].depth();
+  return device.traffic().waits - before;
+}
+
+TEST(RenderedView, WaitsForNoOtherThatWasBegunLater) {
+  GlDevice device;
+  for (const bool day : {true, false}) {
+    Scene scene = restless_heap();
+    // By day the lamp is left out where metering tells so, for which the processor waits.
+    scene.lamp.on = !day;
+    if (!day) scene.light.intensity = 0;
+    Renderer renderer(device, scene, small());
+    count_waits(device, renderer, 0);  // the first view of all
+    EXPECT_EQ(count_waits(device, renderer, 0), 2u) << day;
+    EXPECT_EQ(count_waits(device, renderer, 1), 1u) << "what was asked for earlier is there, too; by day: " << day;
   }
 }
 

@@ -157,10 +157,4 @@ void CullPass::build_pyramid(const GlTexture& depth) {
   }
 }
 
-std::uint32_t CullPass::read_triangles() const {
-  std::uint32_t out = 0;
-  take_buffer(gl_, triangles_.name(), 0, sizeof out, &out, false);
-  return out;
-}
-
 }  // namespace rubble

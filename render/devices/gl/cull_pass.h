@@ -8,6 +8,7 @@
 
 #include "render/devices/gl/draw_list.h"
 #include "render/devices/gl/gl_geometry.h"
+#include "render/gl/gl_exchange.h"
 #include "render/passes/triangle_raster.h"
 
 namespace rubble {
@@ -22,7 +23,7 @@ class CullPass {
   using Prepare = std::function<void()>;
   void draw_first(DrawList& list, const Prepare& prepare);
   void draw_others(DrawList& list, const GlTexture& depth, const Prepare& prepare);
-  std::uint32_t read_triangles() const;  // drawn of this picture; waits for the card
+  GlReadback::Part triangles() const { return {triangles_.name(), 0, 4}; }  // number of those drawn of this picture
 
  private:
   struct Programs {

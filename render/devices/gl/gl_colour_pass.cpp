@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "kernel/base/error.h"
 #include "kernel/base/quick_math.h"
@@ -73,6 +74,22 @@ GlTexture upload_ground(const Gl& gl, const GroundMap& ground) {
   check_gl(gl, "uploading the map of the ground");
   return texture;
 }
+
+class ComingColours : public DrawnColours {
+ public:
+  explicit ComingColours(std::shared_ptr<GlComing> coming) : coming_(std::move(coming)) {}
+
+  float take(std::vector<std::uint8_t>& rgb) override {
+    float exposure = 0;
+    coming_->take(&exposure, 0, sizeof exposure);
+    rgb.resize(coming_->size() - sizeof exposure);
+    coming_->take(rgb.data(), sizeof exposure, rgb.size());
+    return exposure;
+  }
+
+ private:
+  std::shared_ptr<GlComing> coming_;  // the exposure, and three bytes a pixel
+};
 
 constexpr std::size_t kExposureAt = offsetof(FrameBlock, view) / sizeof(float) + 1;  // in the block of the frame
 
@@ -150,6 +167,7 @@ GlColourPass::GlColourPass(const Gl& gl, const GlGeometry& geometry, const GlRas
                                       {"KEY", std::to_string(kDisplayExposure.key)},
                                       {"DUSK", std::to_string(kDisplayExposure.dusk)}})),
       rgb_(gl),
+      readback_(gl),
       texture_size_(patterns.front().size) {
   bind_samplers(gl, exposure_, {{"metered", 0}});
   defines_ = variant_of(light, geometry);
@@ -223,7 +241,8 @@ void GlColourPass::draw_with(int variant, const GlFramebuffer& target, const Vie
     AirPass::Known known;
     if (bounces) known.lamp = lamp_->fog();
     if (surfaces.has_rays()) known.lens_rays = &lens_rays_, known.row_poses = &row_poses_;
-    if (!surfaces.depth_values && !surfaces.through_glass()) known.depth = &depth;
+    const bool tells = AirVolume::has_pixels(view.intrinsics.width, view.intrinsics.height);
+    if (tells && !surfaces.depth_values && !surfaces.through_glass()) known.depth = &depth;
     air_.trace(*light.air, frame_block_, known);
   }
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_.name());
@@ -364,7 +383,7 @@ void GlColourPass::draw(const ViewProjection& view, const Pose& world_from_camer
   draw_with(0, target_, view, world_from_camera, surfaces, light, exposure, exposure && !metered);
 }
 
-void GlColourPass::finish(const SurfaceImages& surfaces, bool smooth) {
+std::unique_ptr<DrawnColours> GlColourPass::finish(const SurfaceImages& surfaces, bool smooth) {
   constexpr GLuint kPixelsAGroup = 256, kGroupsARow = 32768;
   GlProgram& program = finish_programs_[smooth];
   if (!program) {
@@ -378,15 +397,11 @@ void GlColourPass::finish(const SurfaceImages& surfaces, bool smooth) {
   const GLuint groups = (GLuint(width_) * GLuint(height_) + kPixelsAGroup - 1) / kPixelsAGroup, row = std::min(groups, kGroupsARow);
   gl_.DispatchCompute(row, (groups + row - 1) / row, 1);
   gl_.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-}
-
-float GlColourPass::read(std::vector<std::uint8_t>& rgb) {
-  rgb.resize(std::size_t(width_) * std::size_t(height_) * 3);
-  take_buffer(gl_, rgb_.name(), 0, rgb.size(), rgb.data(), true);
-  float exposure = 0;
-  take_buffer(gl_, frame_block_.name(), kExposureAt * sizeof(float), sizeof exposure, &exposure, false);
-  check_gl(gl_, "reading the image back");
-  return exposure;
+  auto coming = readback_.ask({{frame_block_.name(), kExposureAt * sizeof(float), sizeof(float)},
+                               {rgb_.name(), 0, std::size_t(width_) * std::size_t(height_) * 3}});
+  gl_.Flush();  // the card starts while the processor goes on
+  check_gl(gl_, "drawing the colours");
+  return std::make_unique<ComingColours>(std::move(coming));
 }
 
 std::vector<float> GlColourPass::draw_linear(const ViewProjection& view,

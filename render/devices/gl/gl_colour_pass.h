@@ -30,8 +30,7 @@ class GlColourPass : public ColourPass {
   void draw(const ViewProjection& view, const Pose& world_from_camera,
             const SurfaceImages& surfaces, const FrameLight& light, std::optional<float> exposure,
             bool metered) override;
-  void finish(const SurfaceImages& surfaces, bool smooth) override;
-  float read(std::vector<std::uint8_t>& rgb) override;
+  std::unique_ptr<DrawnColours> finish(const SurfaceImages& surfaces, bool smooth) override;
   std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
                                  const SurfaceImages& surfaces, const FrameLight& light) override;
 
@@ -82,6 +81,7 @@ class GlColourPass : public ColourPass {
   GlProgram exposure_;  // of what was metered, into the block of the frame
   GlProgram finish_programs_[2];  // by `smooth`
   GlBuffer rgb_;                  // three bytes a pixel
+  GlReadback readback_;
   int width_ = 0, height_ = 0;
   int texture_size_ = 1;
 };

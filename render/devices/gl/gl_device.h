@@ -13,6 +13,7 @@ class GlDevice : public Device {
 
   const DeviceInfo& info() const override { return info_; }
   DeviceTraffic traffic() const override;
+  bool runs_ahead() const override { return true; }
   void make_current() override { context_.make_current(); }
   std::unique_ptr<DeviceScene> load(const PreparedScene& scene, const LightSet& lights,
                                     const LightTable& light, const DeviceSceneOptions& options, ThreadPool& pool) override;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "kernel/base/error.h"
 #include "render/devices/gl/draw_list.h"
@@ -30,8 +31,7 @@ GlRaster::GlRaster(const Gl& gl, const PreparedScene& scene, const GlGeometry& g
       list_(gl, geometry),
       block_(gl),
       empty_array_(gl),
-      values_back_(gl),
-      ids_back_(gl) {
+      readback_(gl) {
   bind_samplers(gl, plane_program_,
                 {{"visibility", 0}, {"vertex_table", 1}, {"triangle_table", 2}, {"placed_table", 3}});
   gl.UniformBlockBinding(plane_program_.name(), gl.GetUniformBlockIndex(plane_program_.name(), "Plane"), 0);
@@ -39,16 +39,16 @@ GlRaster::GlRaster(const Gl& gl, const PreparedScene& scene, const GlGeometry& g
 
 void GlRaster::begin(const ViewProjection& view) {
   view_ = &view;
-  resize(view.intrinsics.width, view.intrinsics.height);
+  choose_images(view.intrinsics.width, view.intrinsics.height);
   const float zero[4] = {0, 0, 0, 0};
   const GLuint none[4] = {0, 0, 0, 0};
-  gl_.ClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, zero);
-  gl_.ClearNamedFramebufferuiv(target_.name(), GL_COLOR, 0, none);
+  gl_.ClearNamedFramebufferfv(drawn_->target.name(), GL_DEPTH, 0, zero);
+  gl_.ClearNamedFramebufferuiv(drawn_->target.name(), GL_COLOR, 0, none);
 }
 
 void GlRaster::prepare_to_draw() {
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, target_.name());
-  gl_.Viewport(0, 0, width_, height_);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, drawn_->target.name());
+  gl_.Viewport(0, 0, drawn_->width, drawn_->height);
   gl_.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_GREATER);
@@ -63,9 +63,10 @@ bool GlRaster::draw_what_shows(const std::vector<DrawCandidate>& candidates) {
   list_.clear();
   for (const DrawCandidate& candidate : candidates) add_record(candidate.placed);
   const auto prepare = [&] { prepare_to_draw(); };
-  cull_->begin(candidates, list_, width_, height_);
+  cull_->begin(candidates, list_, drawn_->width, drawn_->height);
   cull_->draw_first(list_, prepare);
-  cull_->draw_others(list_, depth_, prepare);
+  cull_->draw_others(list_, drawn_->depth, prepare);
+  drawn_->triangles_coming = readback_.ask({cull_->triangles()});
   check_gl(gl_, "drawing what shows");
   return true;
 }
@@ -92,58 +93,101 @@ void GlRaster::finish() {
   block.lens[2] = float(k.cx), block.lens[3] = float(k.cy);
   give_buffer(gl_, block_.name(), sizeof block, &block, GL_STREAM_DRAW);
   gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_.name());
-  const GLuint textures[] = {ids_.name(), geometry_.vertices_view.name(),
+  const GLuint textures[] = {drawn_->ids.name(), geometry_.vertices_view.name(),
                              geometry_.triangles_view.name(), geometry_.placed_view.name()};
   for (GLuint unit = 0; unit < 4; ++unit) gl_.BindTextureUnit(unit, textures[unit]);
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, plane_target_.name());
-  gl_.Viewport(0, 0, width_, height_);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, drawn_->plane_target.name());
+  gl_.Viewport(0, 0, drawn_->width, drawn_->height);
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_CULL_FACE);
   gl_.UseProgram(plane_program_.name());
   gl_.BindVertexArray(empty_array_.name());
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-  values_back_.ask(width_, height_, GL_RED, GL_FLOAT);
-  ids_asked_ = ids_wanted_, ids_wanted_ = false;
-  if (ids_asked_) ask_ids();
-  values_asked_ = true;
+  drawn_->values_coming = readback_.ask(drawn_->width, drawn_->height, GL_RED, GL_FLOAT);
+  if (ids_wanted_) ask_ids(*drawn_);
+  ids_wanted_ = false;
   check_gl(gl_, "drawing the triangles");
 }
 
-const std::vector<float>& GlRaster::depth_values() const {
-  if (values_asked_) values_back_.take(values_.data());
-  values_asked_ = false;
-  return values_;
+const std::vector<float>& GlRaster::take_values(Images& images) const {
+  if (!images.values_taken) {
+    images.values.resize(std::size_t(images.width) * std::size_t(images.height));
+    images.values_coming->take(images.values.data());
+  }
+  images.values_taken = true;
+  return images.values;
 }
 
-void GlRaster::ask_ids() const {
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
-  ids_back_.ask(width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT);
+void GlRaster::ask_ids(Images& images) const {
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, images.target.name());
+  images.ids_coming = readback_.ask(images.width, images.height, GL_RG_INTEGER, GL_UNSIGNED_INT);
 }
 
-std::vector<std::uint32_t> GlRaster::read_ids() const {
+std::vector<std::uint32_t> GlRaster::take_ids(Images& images) const {
   ids_wanted_ = true;
-  std::vector<std::uint32_t> out(values_.size() * 2);
-  if (!ids_asked_) ask_ids();
-  ids_back_.take(out.data());
+  std::vector<std::uint32_t> out(std::size_t(images.width) * std::size_t(images.height) * 2);
+  if (!images.ids_coming) ask_ids(images);
+  images.ids_coming->take(out.data());
   check_gl(gl_, "reading the triangle numbers back");
   return out;
 }
 
-void GlRaster::resize(int width, int height) {
-  if (width == width_ && height == height_) return;
-  width_ = width, height_ = height;
-  ids_ = make_target(gl_, GL_RG32UI, width, height);
-  depth_ = make_target(gl_, GL_DEPTH_COMPONENT32F, width, height);
-  plane_depth_ = make_target(gl_, GL_R32F, width, height);
-  target_ = GlFramebuffer(gl_);
-  gl_.NamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, ids_.name(), 0);
-  gl_.NamedFramebufferTexture(target_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
-  plane_target_ = GlFramebuffer(gl_);
-  gl_.NamedFramebufferTexture(plane_target_.name(), GL_COLOR_ATTACHMENT0, plane_depth_.name(), 0);
+const std::vector<float>& GlRaster::depth_values() const { return take_values(*drawn_); }
+
+std::vector<std::uint32_t> GlRaster::read_ids() const { return take_ids(*drawn_); }
+
+std::size_t GlRaster::read_triangles() const {
+  std::uint32_t out = 0;
+  drawn_->triangles_coming->take(&out);
+  return out;
+}
+
+class GlRaster::Left : public LeftImages {
+ public:
+  Left(const GlRaster& raster, std::shared_ptr<Images> images) : raster_(raster), images_(std::move(images)) {}
+
+  const std::vector<float>& depth_values() override { return raster_.take_values(*images_); }
+  std::vector<std::uint32_t> ids() override { return raster_.take_ids(*images_); }
+  std::size_t triangles() override {
+    std::uint32_t out = 0;
+    if (images_->triangles_coming) images_->triangles_coming->take(&out);
+    return out;
+  }
+
+ private:
+  const GlRaster& raster_;
+  std::shared_ptr<Images> images_;
+};
+
+std::unique_ptr<LeftImages> GlRaster::leave() { return std::make_unique<Left>(*this, drawn_); }
+
+std::shared_ptr<GlRaster::Images> GlRaster::make_images(int width, int height) const {
+  auto out = std::make_shared<Images>();
+  out->width = width, out->height = height;
+  out->ids = make_target(gl_, GL_RG32UI, width, height);
+  out->depth = make_target(gl_, GL_DEPTH_COMPONENT32F, width, height);
+  out->plane_depth = make_target(gl_, GL_R32F, width, height);
+  out->target = GlFramebuffer(gl_);
+  gl_.NamedFramebufferTexture(out->target.name(), GL_COLOR_ATTACHMENT0, out->ids.name(), 0);
+  gl_.NamedFramebufferTexture(out->target.name(), GL_DEPTH_ATTACHMENT, out->depth.name(), 0);
+  out->plane_target = GlFramebuffer(gl_);
+  gl_.NamedFramebufferTexture(out->plane_target.name(), GL_COLOR_ATTACHMENT0, out->plane_depth.name(), 0);
   check_gl(gl_, "making the image buffers");
-  if (gl_.CheckNamedFramebufferStatus(target_.name(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+  if (gl_.CheckNamedFramebufferStatus(out->target.name(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
     throw RunError("the graphics device cannot draw triangle numbers and depth together");
-  values_.assign(std::size_t(width) * std::size_t(height), 0);
+  return out;
+}
+
+// Those of the view before are left alone while somebody has them.
+void GlRaster::choose_images(int width, int height) {
+  drawn_.reset();
+  if (!images_.empty() && (images_.front()->width != width || images_.front()->height != height)) images_.clear();
+  for (const auto& images : images_) {
+    if (images.use_count() == 1) drawn_ = images;
+  }
+  if (!drawn_) drawn_ = images_.emplace_back(make_images(width, height));
+  drawn_->values_coming.reset(), drawn_->ids_coming.reset(), drawn_->triangles_coming.reset();
+  drawn_->values_taken = false;
 }
 
 void GlRaster::add_record(std::uint32_t placed) {

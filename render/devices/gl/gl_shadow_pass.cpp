@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "render/devices/gl/draw_list.h"
-#include "render/gl/gl_traffic.h"
 #include "render/gl/shader.h"
 
 namespace rubble {
@@ -42,7 +41,8 @@ GlShadowPass::GlShadowPass(const Gl& gl, const PreparedScene& scene, const GlGeo
   for (const PlacedMesh& piece : scene.placed) moves_ = moves_ || piece.moves;
   program_ = make_program(gl, "visibility.vert.glsl", "visibility.frag.glsl", {{"SHADOW", ""}});
   depth_ = make_layers();
-  draw_layers(depth_, ShadowPart::resting);
+  targets_ = make_targets(depth_);
+  draw_layers(ShadowPart::resting);
   values_ = make_values(depth_);
   std::vector<EdgeView> sun = views_.sun_edges();
   if (!sun.empty()) {
@@ -52,6 +52,7 @@ GlShadowPass::GlShadowPass(const Gl& gl, const PreparedScene& scene, const GlGeo
   if (!moves_) return;
   resting_ = std::move(depth_);
   depth_ = make_layers();
+  targets_ = make_targets(depth_);
   values_ = make_values(depth_);
   if (edges_) edges_->keep();
 }
@@ -70,6 +71,16 @@ GlTexture GlShadowPass::make_layers() const {
   return layers;
 }
 
+std::vector<GlFramebuffer> GlShadowPass::make_targets(const GlTexture& layers) const {
+  std::vector<GlFramebuffer> out;
+  for (std::size_t i = 0; i < views_.rows.size(); ++i) {
+    out.emplace_back(gl_);
+    gl_.NamedFramebufferTextureLayer(out.back().name(), GL_DEPTH_ATTACHMENT, layers.name(), 0, GLint(i));
+    gl_.NamedFramebufferDrawBuffers(out.back().name(), 0, nullptr);
+  }
+  return out;
+}
+
 GlTexture GlShadowPass::make_values(const GlTexture& layers) const {
   GlTexture values(gl_);
   gl_.TextureView(values.name(), GL_TEXTURE_2D_ARRAY, layers.name(), GL_DEPTH_COMPONENT32F, 0, 1, 0,
@@ -86,7 +97,7 @@ void GlShadowPass::move() {
   const int side = views_.side;
   gl_.CopyImageSubData(resting_.name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, depth_.name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0,
                        side, side, GLsizei(views_.rows.size()));
-  draw_layers(depth_, ShadowPart::moving);
+  draw_layers(ShadowPart::moving);
   if (edges_) {
     std::vector<std::vector<TexelRect>> changed;
     for (std::size_t i = 0; i < std::size_t(views_.lights.front().views); ++i)
@@ -95,10 +106,10 @@ void GlShadowPass::move() {
   }
   if (lights_.carried == 0) return;
   views_.place(scene_, lights_);
-  draw_layers(depth_, ShadowPart::all, std::size_t(views_.lights[lights_.first_carried()].first_view));
+  draw_layers(ShadowPart::all, std::size_t(views_.lights[lights_.first_carried()].first_view));
 }
 
-void GlShadowPass::draw_layers(const GlTexture& layers, ShadowPart part, std::size_t from) {
+void GlShadowPass::draw_layers(ShadowPart part, std::size_t from) {
   gl_.UseProgram(program_.name());
   gl_.Viewport(0, 0, views_.side, views_.side);
   gl_.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -108,14 +119,11 @@ void GlShadowPass::draw_layers(const GlTexture& layers, ShadowPart part, std::si
   gl_.DepthMask(GL_TRUE);
   gl_.Disable(GL_CULL_FACE);
   for (std::size_t i = from; i < views_.rows.size(); ++i) {
-    GlFramebuffer target(gl_);
-    gl_.NamedFramebufferTextureLayer(target.name(), GL_DEPTH_ATTACHMENT, layers.name(), 0, GLint(i));
-    gl_.NamedFramebufferDrawBuffers(target.name(), 0, nullptr);
+    const GlFramebuffer& target = targets_[i];
     const float far_value = 1;
     if (part != ShadowPart::moving) gl_.ClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &far_value);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
     draw_view(views_.rows[i], part);
-    wait_for_all(gl_);
   }
   gl_.Disable(GL_DEPTH_CLAMP);
   check_gl(gl_, "drawing the shadow map");

@@ -26,9 +26,10 @@ class GlShadowPass {
 
  private:
   GlTexture make_layers() const;
+  std::vector<GlFramebuffer> make_targets(const GlTexture& layers) const;
   GlTexture make_values(const GlTexture& layers) const;
-  // Of the views from that one on. What moves is drawn on what is there, all else on nothing.
-  void draw_layers(const GlTexture& layers, ShadowPart part, std::size_t from = 0);
+  // Into depth_, of the views from that one on. What moves is drawn on what is there, all else on nothing.
+  void draw_layers(ShadowPart part, std::size_t from = 0);
   void draw_view(const ShadowViews::Rows& rows, ShadowPart part);
 
   const Gl& gl_;
@@ -40,6 +41,7 @@ class GlShadowPass {
   GlProgram program_;
   std::unique_ptr<ShadowEdgePass> edges_;
   GlTexture depth_, values_;
+  std::vector<GlFramebuffer> targets_;  // the layers of depth_
   GlTexture resting_;  // of what rests alone; only where something moves
 };
 

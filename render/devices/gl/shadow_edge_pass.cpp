@@ -46,6 +46,8 @@ ShadowEdgePass::ShadowEdgePass(const Gl& gl, int side, std::vector<EdgeView> vie
   found_ = make_tiles(int(views_.size()));
   edges_ = make_tiles(int(views_.size()));
   across_ = make_tiles(1);
+  into_found_ = make_targets(found_, int(views_.size())), into_edges_ = make_targets(edges_, int(views_.size()));
+  into_across_ = make_targets(across_, 1);
   give_buffer(gl, pyramids_.name(), views_.size() * pyramid_size(side_) * 4, nullptr, GL_DYNAMIC_COPY);
 }
 
@@ -56,6 +58,15 @@ GlTexture ShadowEdgePass::make_tiles(int layers) const {
   gl_.TextureParameteri(tiles.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   check_gl(gl_, "making the edges of the shadow map");
   return tiles;
+}
+
+std::vector<GlFramebuffer> ShadowEdgePass::make_targets(const GlTexture& tiles, int layers) const {
+  std::vector<GlFramebuffer> out;
+  for (int layer = 0; layer < layers; ++layer) {
+    out.emplace_back(gl_);
+    gl_.NamedFramebufferTextureLayer(out.back().name(), GL_COLOR_ATTACHMENT0, tiles.name(), 0, layer);
+  }
+  return out;
 }
 
 void ShadowEdgePass::copy(const GlTexture& from, const GlTexture& to) const {
@@ -120,18 +131,16 @@ void ShadowEdgePass::find_in(const GlTexture& values, std::size_t layer, const s
     gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, block_.name());
   };
   set_block(int(layer), 0, 0);
-  draw(find_, values, found_, layer, tiles, 0, 0);
+  draw(find_, values, into_found_[layer], tiles, 0, 0);
   set_block(int(layer), 1, 0);
-  draw(spread_, found_, across_, 0, tiles, reach, 2 * reach);
+  draw(spread_, found_, into_across_[0], tiles, reach, 2 * reach);
   set_block(0, 0, 1);
-  draw(spread_, across_, edges_, layer, tiles, reach, reach);
+  draw(spread_, across_, into_edges_[layer], tiles, reach, reach);
 }
 
-void ShadowEdgePass::draw(const GlProgram& program, const GlTexture& source, const GlTexture& target,
-                          std::size_t layer, const std::vector<TexelRect>& tiles, int grow_x, int grow_y) {
-  GlFramebuffer frame(gl_);
-  gl_.NamedFramebufferTextureLayer(frame.name(), GL_COLOR_ATTACHMENT0, target.name(), 0, GLint(layer));
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, frame.name());
+void ShadowEdgePass::draw(const GlProgram& program, const GlTexture& source, const GlFramebuffer& target,
+                          const std::vector<TexelRect>& tiles, int grow_x, int grow_y) {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
   gl_.UseProgram(program.name());
   gl_.BindTextureUnit(0, source.name());
   gl_.BindVertexArray(empty_array_.name());
@@ -147,7 +156,6 @@ void ShadowEdgePass::draw(const GlProgram& program, const GlTexture& source, con
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
   }
   gl_.Disable(GL_SCISSOR_TEST);
-  wait_for_all(gl_);  // before the framebuffer goes
   check_gl(gl_, "finding the edges of the shadow map");
 }
 

@@ -26,11 +26,12 @@ class ShadowEdgePass {
 
  private:
   GlTexture make_tiles(int layers) const;
+  std::vector<GlFramebuffer> make_targets(const GlTexture& tiles, int layers) const;
   void copy(const GlTexture& from, const GlTexture& to) const;
   void find_in(const GlTexture& values, std::size_t layer, const std::vector<TexelRect>& tiles);
   void build_pyramids();
   // Draws all rectangles, grown by so many tiles.
-  void draw(const GlProgram& program, const GlTexture& source, const GlTexture& target, std::size_t layer,
+  void draw(const GlProgram& program, const GlTexture& source, const GlFramebuffer& target,
             const std::vector<TexelRect>& tiles, int grow_x, int grow_y);
 
   const Gl& gl_;
@@ -43,6 +44,7 @@ class ShadowEdgePass {
   GlTexture found_, edges_;                  // one layer a view
   GlTexture kept_found_, kept_edges_;        // the same, of what rests
   GlTexture across_;                         // found_ of one layer, spread along x
+  std::vector<GlFramebuffer> into_found_, into_edges_, into_across_;  // one a layer
 };
 
 }  // namespace rubble

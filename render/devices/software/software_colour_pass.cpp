@@ -17,6 +17,16 @@ namespace {
 
 constexpr float kNoEdge = 2;  // as SunEdges::blocks
 
+struct FinishedColours : DrawnColours {
+  std::vector<std::uint8_t> rgb;
+  float exposure = 0;
+
+  float take(std::vector<std::uint8_t>& out) override {
+    out = std::move(rgb);
+    return exposure;
+  }
+};
+
 class SoftwareColourPass : public ColourPass {
  public:
   SoftwareColourPass(const PreparedScene& scene, const SceneTables& tables, const SoftwareShadowMap& shadows,
@@ -64,16 +74,14 @@ class SoftwareColourPass : public ColourPass {
     shade(pixels);
   }
 
-  void finish(const SurfaceImages& surfaces, bool smooth) override {
+  std::unique_ptr<DrawnColours> finish(const SurfaceImages& surfaces, bool smooth) override {
+    auto out = std::make_unique<FinishedColours>();
+    out->exposure = exposure_;
     if (smooth)
-      smooth_edges(display_, *surfaces.depth_values, data_.width, data_.height, pool_, rgb_);
+      smooth_edges(display_, *surfaces.depth_values, data_.width, data_.height, pool_, out->rgb);
     else
-      copy_colours(display_, rgb_);
-  }
-
-  float read(std::vector<std::uint8_t>& rgb) override {
-    rgb.swap(rgb_);
-    return exposure_;
+      copy_colours(display_, out->rgb);
+    return out;
   }
 
   std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
@@ -213,7 +221,7 @@ class SoftwareColourPass : public ColourPass {
   OpennessGrids openness_;
   ShadingData data_;
   std::vector<float> edge_blocks_;
-  std::vector<std::uint8_t> display_, rgb_;  // four and three bytes a pixel
+  std::vector<std::uint8_t> display_;  // four bytes a pixel
   float exposure_ = 0;  // of these
   std::vector<std::vector<float>> behind_;  // each glass, four a pixel, as ShadingData::behind
 };

@@ -128,8 +128,8 @@ Series fly(Device& device, Renderer& renderer, const BenchView& view, int size, 
     RenderedView seen = ahead ? std::move(*ahead) : renderer.view({session.now_ns, camera, poses[i]});
     seen.begin();
     ahead.reset();
-    if (renderer.runs_ahead() && i + 1 < poses.size()) {
-      ahead = renderer.view({session.now_ns + step_to(i + 1), camera, poses[i + 1]});
+    if (renderer.runs_ahead()) {  // behind the last as well, so that it costs what the others do
+      ahead = renderer.view({session.now_ns + step_to(i + 1), camera, poses[std::min(i + 1, poses.size() - 1)]});
       ahead->begin();
     }
     seen.rgb(), seen.depth();

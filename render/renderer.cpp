@@ -49,6 +49,21 @@ bool Renderer::runs_ahead() const {
   return source_->scene.device.runs_ahead() && !source_->scene.is_traced();
 }
 
+std::shared_ptr<LightWatch> Renderer::watch_light(const WatchedPixels& pixels) {
+  Device& device = source_->scene.device;
+  device.make_current();
+  std::unique_ptr<LightWatch> watch = source_->colours.make_light_watch(pixels);
+  if (!watch) return nullptr;
+  return {watch.release(), [&device](LightWatch* one) {
+            try {
+              device.make_current();  // for what it has on the device
+            } catch (const RunError&) {
+              // The driver frees it with the context.
+            }
+            delete one;
+          }};
+}
+
 void Renderer::add_drops(const ExposedView& exposed, std::vector<float>& radiance) {
   source_->drops.add(exposed, radiance);
 }

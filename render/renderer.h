@@ -38,6 +38,9 @@ class Renderer {
   RenderedView view(const ViewRays& rays, const ViewRays* next = nullptr);
   // Whether RenderedView::begin() has an effect.
   bool runs_ahead() const;
+  // For RenderedView::light_changes(). Null: the device does not find them; the view's radiance has the light. The device
+  // must outlive it.
+  std::shared_ptr<LightWatch> watch_light(const WatchedPixels& pixels);
   // Adds drops and flakes to the light of an exposure, 3 floats a pixel as in linear frames; unit: kcd/m2. No effect
   // without rain and snow.
   void add_drops(const ExposedView& exposed, std::vector<float>& radiance);

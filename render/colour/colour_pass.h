@@ -9,6 +9,7 @@
 
 #include "render/camera/projection.h"
 #include "render/colour/frame_light.h"
+#include "render/device/light_watch.h"
 #include "render/lighting/exposure.h"
 #include "render/passes/glass_layers.h"
 
@@ -57,6 +58,14 @@ class ColourPass {
   virtual std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
                                          const SurfaceImages& surfaces,
                                          const FrameLight& light) = 0;
+
+  // For what an event camera sees. Null: this device does not find it; draw_linear() has the light.
+  virtual std::unique_ptr<LightWatch> make_light_watch(const WatchedPixels& pixels) { return (void)pixels, nullptr; }
+  // The pixels whose light has changed since the image that this watch saw before. watch: made by a pass of the device.
+  virtual std::vector<LightChange> draw_changes(const ViewProjection& view, const Pose& world_from_camera,
+                                                const SurfaceImages& surfaces, const FrameLight& light, LightWatch& watch) {
+    return (void)view, (void)world_from_camera, (void)surfaces, (void)light, (void)watch, std::vector<LightChange>();
+  }
 
   static constexpr int kMeterEvery =
       4;  // of pixels in each direction, one is metered; as METER in resolve.frag.glsl

@@ -76,7 +76,7 @@ void GlComing::take(void* to, std::size_t offset, std::size_t bytes) {
   std::memcpy(to, memory_ + offset, bytes);
 }
 
-std::shared_ptr<GlComing> GlReadback::find_free(std::size_t bytes) {
+std::shared_ptr<GlComing> GlReadback::open(std::size_t bytes) {
   auto free = std::find_if(all_.begin(), all_.end(), [](const auto& one) { return one.use_count() == 1; });
   if (free == all_.end()) free = all_.insert(all_.end(), std::make_shared<GlComing>(*gl_));
   (*free)->make_room(bytes);
@@ -84,7 +84,7 @@ std::shared_ptr<GlComing> GlReadback::find_free(std::size_t bytes) {
 }
 
 std::shared_ptr<GlComing> GlReadback::ask(int width, int height, GLenum format, GLenum type) {
-  auto coming = find_free(std::size_t(width) * std::size_t(height) * bytes_of_pixel(format, type));
+  auto coming = open(std::size_t(width) * std::size_t(height) * bytes_of_pixel(format, type));
   gl_->BindBuffer(GL_PIXEL_PACK_BUFFER, coming->buffer_.name());
   gl_->ReadPixels(0, 0, width, height, format, type, nullptr);
   gl_->BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
@@ -95,7 +95,7 @@ std::shared_ptr<GlComing> GlReadback::ask(int width, int height, GLenum format, 
 std::shared_ptr<GlComing> GlReadback::ask(const std::vector<Part>& parts) {
   std::size_t bytes = 0;
   for (const Part& part : parts) bytes += part.bytes;
-  auto coming = find_free(bytes);
+  auto coming = open(bytes);
   std::size_t to = 0;
   for (const Part& part : parts) {
     gl_->CopyNamedBufferSubData(part.buffer, coming->buffer_.name(), GLintptr(part.offset), GLintptr(to), GLsizeiptr(part.bytes));

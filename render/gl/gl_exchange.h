@@ -42,6 +42,8 @@ class GlComing {
   GlComing& operator=(const GlComing&) = delete;
 
   std::size_t size() const { return bytes_; }  // unit: byte
+  GLuint name() const { return buffer_.name(); }
+  void sign();  // all of it is asked for
   // Waits until the card has done what was asked of it before, and no longer.
   void take(void* to, std::size_t offset, std::size_t bytes);
   void take(void* to) { take(to, 0, bytes_); }
@@ -49,7 +51,6 @@ class GlComing {
  private:
   friend class GlReadback;
   void make_room(std::size_t bytes);
-  void sign();  // all is asked for
 
   const Gl* gl_;
   GlBuffer buffer_;
@@ -65,6 +66,8 @@ class GlReadback {
 
   // Of what is bound to read, rows from its first on.
   std::shared_ptr<GlComing> ask(int width, int height, GLenum format, GLenum type);
+  // For what writes there itself.
+  std::shared_ptr<GlComing> open(std::size_t bytes);
   struct Part {
     GLuint buffer;
     std::size_t offset, bytes;
@@ -73,8 +76,6 @@ class GlReadback {
   std::shared_ptr<GlComing> ask(const std::vector<Part>& parts);
 
  private:
-  std::shared_ptr<GlComing> find_free(std::size_t bytes);
-
   const Gl* gl_;
   std::vector<std::shared_ptr<GlComing>> all_;  // those that nobody else has are free
 };

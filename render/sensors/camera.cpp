@@ -27,11 +27,10 @@ void add_scaled(std::vector<float>& sum, const std::vector<float>& image, float 
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += factor * image[i];
 }
 
-std::vector<float> luminance_of(const LinearFrame& image) {  // unit: cd/m2
-  std::vector<float> out(image.depth.size());
+std::vector<float> luminance_of(const std::vector<float>& rgb) {  // unit: cd/m2
+  std::vector<float> out(rgb.size() / 3);
   for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = 1000 * (0.2126f * image.rgb[i * 3] + 0.7152f * image.rgb[i * 3 + 1] +
-                     0.0722f * image.rgb[i * 3 + 2]);
+    out[i] = 1000 * (0.2126f * rgb[i * 3] + 0.7152f * rgb[i * 3 + 1] + 0.0722f * rgb[i * 3 + 2]);
   return out;
 }
 
@@ -51,6 +50,7 @@ struct Camera::State {
   std::unique_ptr<ImageSensor> sensor;  // none: an ideal image
   DepthSensor depth_sensor;
   std::unique_ptr<EventPixels> events;
+  std::shared_ptr<LightWatch> light_watch;  // null: the device does not find which pixels report
   bool settled = false;
   double last_mean = 0;  // of the frame before, for the exposure
   struct Watched {  // the last image of the event camera
@@ -113,6 +113,7 @@ Camera::State::State(Renderer& r, const CameraSpec& s, Flight f)
     optics = std::make_unique<LensOptics>(spec.optics, spec.exposure.f_number, k, spec.seed, spec.threads);
   if (spec.event_camera.on)
     events = std::make_unique<EventPixels>(spec.event_camera, k.width, k.height, spec.seed);
+  if (events) light_watch = renderer.watch_light(events->pixels());
 }
 
 // The frame's own pose at its own stamp, so that rounding between the two cannot show.
@@ -341,9 +342,11 @@ void Camera::State::watch(int index, Frame& frame) {
     if (flight.stamps_ns[goal] > stamp)
       way = way_between(stamp, flight.stamps_ns[goal], flight.stamps_ns[goal], flight.world_from_camera[goal], seen);
     way.front() = {view.world_from_camera, {}};
-    LinearFrame image = std::move(seen).into_linear_frame();
-    events->see(stamp, luminance_of(image), frame.events);
-    return Watched{view, std::move(image.distance), std::move(way)};
+    if (light_watch)
+      events->see_changes(stamp, seen.light_changes(*light_watch), frame.events);
+    else
+      events->see(stamp, luminance_of(seen.radiance()), frame.events);
+    return Watched{view, seen.distances(), std::move(way)};
   };
   if (index == 0) {
     watched = look(end);

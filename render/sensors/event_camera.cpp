@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "kernel/base/quick_math.h"
@@ -20,6 +21,7 @@ EventPixels::EventPixels(const EventCameraSpec& spec, int width, int height, std
   const std::size_t size = std::size_t(width) * std::size_t(height);
   const NoiseField noise(seed, "events/thresholds");
   up_.resize(size), down_.resize(size);
+  silent_until_ns_.assign(size, std::numeric_limits<std::int64_t>::min());
   for (std::size_t i = 0; i < size; ++i) {
     const auto threshold = [&](double stated, std::size_t place) {
       return float(std::max(kLeastThreshold, stated + spec.threshold_noise * noise.normal(place)));
@@ -30,11 +32,10 @@ EventPixels::EventPixels(const EventCameraSpec& spec, int width, int height, std
 }
 
 void EventPixels::cross(std::size_t pixel, std::int64_t from_ns, std::int64_t to_ns, double from,
-                        double to, std::vector<Event>& events) {
+                        double to, double& reference, std::vector<Event>& events) {
   if (from == to) return;
   const bool brighter = to > from;
   const double step = brighter ? double(up_[pixel]) : -double(down_[pixel]);
-  double& reference = reference_[pixel];
   while (brighter ? reference + step <= to : reference + step >= to) {
     reference += step;
     // A reference beyond `from` was passed earlier, in the other direction.
@@ -52,7 +53,7 @@ void EventPixels::add_noise(std::int64_t from_ns, std::int64_t to_ns, std::vecto
   if (!(expected > 0)) return;
   const NoiseField count(seed_, "events/count", images_), more(seed_, "events/noise", images_);
   constexpr std::size_t kMost = 64;  // of one pixel between two images
-  for (std::size_t i = 0; i < level_.size(); ++i) {
+  for (std::size_t i = 0; i < up_.size(); ++i) {
     const std::size_t n = std::min(kMost, std::size_t(count.poisson(i, expected)));
     for (std::size_t e = 0; e < n; ++e) {
       const std::size_t place = (i * kMost + e) * 2;
@@ -68,23 +69,34 @@ void EventPixels::see(std::int64_t stamp_ns, const std::vector<float>& light,
   std::vector<double> level(light.size());
   for (std::size_t i = 0; i < light.size(); ++i)
     level[i] = quick::log(std::max(0.0, double(light[i])) + spec_.dark);
-  if (level_.empty()) {
-    reference_ = level;
-    silent_until_ns_.assign(level.size(), stamp_ns);
-  } else {
-    const std::size_t first = events.size();
-    for (std::size_t i = 0; i < level.size(); ++i)
-      cross(i, last_ns_, stamp_ns, level_[i], level[i], events);
-    add_noise(last_ns_, stamp_ns, events);
-    std::sort(events.begin() + std::ptrdiff_t(first), events.end(),
-              [](const Event& a, const Event& b) {
-                return std::tie(a.stamp_ns, a.y, a.x, a.brighter) <
-                       std::tie(b.stamp_ns, b.y, b.x, b.brighter);
-              });
-  }
+  const std::size_t first = events.size();
+  if (images_ == 0) reference_ = level_ = level;
+  for (std::size_t i = 0; i < level.size(); ++i)
+    cross(i, last_ns_, stamp_ns, level_[i], level[i], reference_[i], events);
   level_ = std::move(level);
+  end_image(stamp_ns, first, events);
+}
+
+void EventPixels::see_changes(std::int64_t stamp_ns, const std::vector<LightChange>& changes, std::vector<Event>& events) {
+  const std::size_t first = events.size();
+  for (const LightChange& change : changes) {
+    double reference = change.reference;
+    cross(change.pixel, last_ns_, stamp_ns, change.from, change.to, reference, events);
+  }
+  end_image(stamp_ns, first, events);
+}
+
+void EventPixels::end_image(std::int64_t stamp_ns, std::size_t first, std::vector<Event>& events) {
+  if (images_ > 0) add_noise(last_ns_, stamp_ns, events);
+  std::sort(events.begin() + std::ptrdiff_t(first), events.end(), [](const Event& a, const Event& b) {
+    return std::tie(a.stamp_ns, a.y, a.x, a.brighter) < std::tie(b.stamp_ns, b.y, b.x, b.brighter);
+  });
   last_ns_ = stamp_ns;
   ++images_;
+}
+
+WatchedPixels EventPixels::pixels() const {
+  return {width_, int(up_.size() / std::size_t(width_)), up_, down_, float(spec_.dark)};
 }
 
 }  // namespace rubble

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/device/light_watch.h"
 #include "render/scene/camera_spec.h"
 
 namespace rubble {
@@ -22,10 +23,16 @@ class EventPixels {
   // light: luminance, one a pixel, rows from the top; unit: cd/m2. The first image only sets the
   // levels. Events since the image before are appended in order of stamp, row, column.
   void see(std::int64_t stamp_ns, const std::vector<float>& light, std::vector<Event>& events);
+  // The same of the pixels alone that report, where a device has found them from pixels(). Not for one that has seen images.
+  void see_changes(std::int64_t stamp_ns, const std::vector<LightChange>& changes, std::vector<Event>& events);
+  WatchedPixels pixels() const;
 
  private:
+  // reference: ln(light) of the last event; that of the last of these afterwards.
   void cross(std::size_t pixel, std::int64_t from_ns, std::int64_t to_ns, double from, double to,
-             std::vector<Event>& events);
+             double& reference, std::vector<Event>& events);
+  // Since the image before: with noise, in order from number `first` on.
+  void end_image(std::int64_t stamp_ns, std::size_t first, std::vector<Event>& events);
   void add_noise(std::int64_t from_ns, std::int64_t to_ns, std::vector<Event>& events);
 
   EventCameraSpec spec_;

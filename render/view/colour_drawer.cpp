@@ -196,14 +196,29 @@ ColourImage ColourDrawer::collect(StartedColours started) {
   return std::move(image);
 }
 
+FrameLight ColourDrawer::light_linear(const ViewRays& view, DrawnSurfaces& surfaces) {
+  light_shown(surfaces);
+  scene_.light_air(view.stamp_ns);
+  set_bounce(scene_.aim_lamp(view.lamp_bearer(), view.stamp_ns), surfaces);
+  return light_view(view, surfaces, true);
+}
+
+std::unique_ptr<LightWatch> ColourDrawer::make_light_watch(const WatchedPixels& pixels) const {
+  return resolve_ ? resolve_->make_light_watch(pixels) : nullptr;
+}
+
+std::vector<LightChange> ColourDrawer::draw_changes(const ViewRays& view, DrawnSurfaces& surfaces, LightWatch& watch) {
+  scene_.move_to(view.stamp_ns);
+  const SurfaceImages images = surfaces.images();
+  const FrameLight light = light_linear(view, surfaces);
+  return resolve_->draw_changes(projection_of(view), view.world_from_camera, images, light, watch);
+}
+
 std::vector<float> ColourDrawer::draw_radiance(const ViewRays& view, DrawnSurfaces& surfaces) {
   scene_.move_to(view.stamp_ns);
   if (reference_) return trace(view);
   const SurfaceImages images = surfaces.images();
-  light_shown(surfaces);
-  scene_.light_air(view.stamp_ns);
-  set_bounce(scene_.aim_lamp(view.lamp_bearer(), view.stamp_ns), surfaces);
-  const FrameLight light = light_view(view, surfaces, true);
+  const FrameLight light = light_linear(view, surfaces);
   return first_three_of_four(resolve_->draw_linear(projection_of(view), view.world_from_camera, images, light));
 }
 

@@ -40,11 +40,15 @@ class ColourDrawer {
   static ColourImage collect(StartedColours started);  // waits for the device
   // Before exposure and tone mapping: 3 floats a pixel; unit: kcd/m2. Without the drops of DropDrawer.
   std::vector<float> draw_radiance(const ViewRays& view, DrawnSurfaces& surfaces);
+  // As ColourPass has them. Null: where colours are path traced as well.
+  std::unique_ptr<LightWatch> make_light_watch(const WatchedPixels& pixels) const;
+  std::vector<LightChange> draw_changes(const ViewRays& view, DrawnSurfaces& surfaces, LightWatch& watch);
 
  private:
   // What depends on the view: where its lamp is, and the air before it.
   // drops_drawn: as AirVolume::prepare().
   FrameLight light_view(const ViewRays& view, DrawnSurfaces& surfaces, bool drops_drawn);
+  FrameLight light_linear(const ViewRays& view, DrawnSurfaces& surfaces);  // for a picture before exposure
   std::vector<float> trace(const ViewRays& view) const;
   void draw_traced(const ViewRays& view, std::optional<float> exposure, ColourImage& image) const;
   void light_shown(DrawnSurfaces& surfaces);             // finds the light of what shows

@@ -137,6 +137,10 @@ const std::vector<float>& RenderedView::radiance() {
   return *s.radiance;
 }
 
+std::vector<LightChange> RenderedView::light_changes(LightWatch& watch) {
+  return state_->source.colours.draw_changes(state_->rays, state_->drawn(), watch);
+}
+
 const ImageValues& RenderedView::truth(const ImageStream& stream) {
   make_truth({&stream});
   return state_->truth.find(stream.name)->second;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "render/camera/view_rays.h"
+#include "render/device/light_watch.h"
 #include "render/media/medium.h"
 #include "render/scene/camera_spec.h"
 #include "render/scene/frame.h"
@@ -60,6 +61,8 @@ class RenderedView {
   std::vector<std::uint8_t> rgb_at(float exposure);
   // Before exposure and tone mapping, 3 floats a pixel; unit: kcd/m2.
   const std::vector<float>& radiance();
+  // As ColourPass::draw_changes(). watch: of the renderer.
+  std::vector<LightChange> light_changes(LightWatch& watch);
 
   // A stream of ground truth (ImageStream::is_truth).
   const ImageValues& truth(const ImageStream& stream);

@@ -6,9 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
+#include <set>
+#include <tuple>
 #include <vector>
 
 #include "kernel/base/portable_math.h"
+#include "render/devices/gl/gl_device.h"
 #include "render/devices/software/software_device.h"
 #include "render/sensors/camera.h"
 #include "tests/render/cached_options.h"
@@ -170,9 +174,8 @@ TEST(EventCamera, SeesAllBetweenFramesThatAreFarApart) {
 
 // A camera that moves sideways past a bright edge: where the edge passed, and only there, as many
 // events as its contrast has thresholds, at the time when it passed.
-TEST(EventCamera, ReportsAMovingEdge) {
+void check_moving_edge(Device& device) {
   const Scene scene = edge_scene();
-  SoftwareDevice device;
   Renderer renderer(device, scene, edge_options());
   CameraSpec spec = edge_camera();
   spec.event_camera.threshold_down = 0.2;
@@ -207,6 +210,50 @@ TEST(EventCamera, ReportsAMovingEdge) {
     edge += std::fabs(sums[i]) > 0.3;
   }
   EXPECT_NEAR(edge, 5 * 16, 16);
+}
+
+TEST(EventCamera, ReportsAMovingEdge) {
+  SoftwareDevice software;
+  check_moving_edge(software);
+  GlDevice card;
+  check_moving_edge(card);
+}
+
+// A card finds which pixels report; from its images the processor finds the same.
+TEST(EventCamera, HasTheSameEventsWhereACardFindsThem) {
+  const Scene heap = make_heap(60, 2);
+  GlDevice device;
+  Renderer renderer(device, heap, edge_options());
+  EventCameraSpec spec = quiet();
+  spec.threshold_noise = 0.03, spec.background_hz = 2, spec.refractory = 1e-3;
+  const Intrinsics k = pinhole(100, 60, 80);
+  EventPixels by_card(spec, k.width, k.height, 7), by_processor(spec, k.width, k.height, 7);
+  const std::shared_ptr<LightWatch> watch = renderer.watch_light(by_card.pixels());
+  ASSERT_TRUE(watch);
+  std::vector<Event> card, processor;
+  for (int i = 0; i < 12; ++i) {
+    const ViewRays view{i * 10'000'000LL, k, look_at({5 - 0.1 * i, 1 + 0.02 * i, 1.4}, {0, 0, 0.5})};
+    RenderedView seen = renderer.view(view);
+    std::vector<float> light;
+    const std::vector<float>& rgb = seen.radiance();
+    for (std::size_t p = 0; p < rgb.size(); p += 3)
+      light.push_back(1000 * (0.2126f * rgb[p] + 0.7152f * rgb[p + 1] + 0.0722f * rgb[p + 2]));
+    by_processor.see(view.stamp_ns, light, processor);
+    seen.depth();
+    const DeviceTraffic before = device.traffic();
+    const std::vector<LightChange> changes = seen.light_changes(*watch);
+    EXPECT_EQ(device.traffic().taken - before.taken, 4 + changes.size() * sizeof(LightChange));
+    EXPECT_EQ(device.traffic().waits - before.waits, 1u);
+    by_card.see_changes(view.stamp_ns, changes, card);
+  }
+  const auto place = [](const Event& e) { return std::tuple(e.x, e.y, e.brighter, e.stamp_ns / 100'000); };
+  std::set<std::tuple<std::uint16_t, std::uint16_t, bool, std::int64_t>> known;
+  for (const Event& e : processor) known.insert(place(e));
+  std::size_t same = 0;
+  for (const Event& e : card) same += known.count(place(e));
+  EXPECT_GT(processor.size(), 2000u);
+  EXPECT_NEAR(double(card.size()) / double(processor.size()), 1, 0.005);
+  EXPECT_GT(double(same) / double(card.size()), 0.98);
 }
 
 // The camera stands and the wall goes by: the edge is at each column at its time, which takes images

@@ -9,6 +9,7 @@
 #include "kernel/base/quick_math.h"
 #include "render/colour/frame_fill.h"
 #include "render/colour/view_lamp.h"
+#include "render/devices/gl/gl_light_watch.h"
 #include "render/gl/gl_traffic.h"
 #include "render/gl/shader.h"
 #include "render/materials/glass.h"
@@ -404,21 +405,40 @@ std::unique_ptr<DrawnColours> GlColourPass::finish(const SurfaceImages& surfaces
   return std::make_unique<ComingColours>(std::move(coming));
 }
 
-std::vector<float> GlColourPass::draw_linear(const ViewProjection& view,
-                                             const Pose& world_from_camera,
-                                             const SurfaceImages& surfaces,
-                                             const FrameLight& light) {
+// Into radiance_.
+void GlColourPass::draw_radiance(const ViewProjection& view, const Pose& world_from_camera, const SurfaceImages& surfaces,
+                                 const FrameLight& light) {
   const int width = view.intrinsics.width, height = view.intrinsics.height;
-  const GlTexture texture = make_target(gl_, GL_RGBA32F, width, height);
-  const GlFramebuffer target(gl_);
-  gl_.NamedFramebufferTexture(target.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
+  if (width != radiance_width_ || height != radiance_height_) {
+    radiance_width_ = width, radiance_height_ = height;
+    radiance_ = make_target(gl_, GL_RGBA32F, width, height);
+    radiance_target_ = GlFramebuffer(gl_);
+    gl_.NamedFramebufferTexture(radiance_target_.name(), GL_COLOR_ATTACHMENT0, radiance_.name(), 0);
+  }
   draw_behind(view, world_from_camera, surfaces, light);
-  draw_with(kLinear, target, view, world_from_camera, surfaces, light, 1);
-  std::vector<float> out(std::size_t(width) * std::size_t(height) * 4);
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target.name());
-  take_pixels(gl_, width, height, GL_RGBA, GL_FLOAT, out.data());
+  draw_with(kLinear, radiance_target_, view, world_from_camera, surfaces, light, 1);
+  check_gl(gl_, "drawing the linear image");
+}
+
+std::vector<float> GlColourPass::draw_linear(const ViewProjection& view, const Pose& world_from_camera,
+                                             const SurfaceImages& surfaces, const FrameLight& light) {
+  draw_radiance(view, world_from_camera, surfaces, light);
+  std::vector<float> out(std::size_t(radiance_width_) * std::size_t(radiance_height_) * 4);
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, radiance_target_.name());
+  take_pixels(gl_, radiance_width_, radiance_height_, GL_RGBA, GL_FLOAT, out.data());
   check_gl(gl_, "reading the linear image back");
   return out;
+}
+
+std::unique_ptr<LightWatch> GlColourPass::make_light_watch(const WatchedPixels& pixels) {
+  return std::make_unique<GlLightWatch>(gl_, pixels);
+}
+
+std::vector<LightChange> GlColourPass::draw_changes(const ViewProjection& view, const Pose& world_from_camera,
+                                                    const SurfaceImages& surfaces, const FrameLight& light,
+                                                    LightWatch& watch) {
+  draw_radiance(view, world_from_camera, surfaces, light);
+  return static_cast<GlLightWatch&>(watch).see(radiance_);
 }
 
 }  // namespace rubble

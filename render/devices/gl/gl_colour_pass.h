@@ -33,6 +33,9 @@ class GlColourPass : public ColourPass {
   std::unique_ptr<DrawnColours> finish(const SurfaceImages& surfaces, bool smooth) override;
   std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
                                  const SurfaceImages& surfaces, const FrameLight& light) override;
+  std::unique_ptr<LightWatch> make_light_watch(const WatchedPixels& pixels) override;
+  std::vector<LightChange> draw_changes(const ViewProjection& view, const Pose& world_from_camera,
+                                        const SurfaceImages& surfaces, const FrameLight& light, LightWatch& watch) override;
 
  private:
   // What is drawn behind glass, as a view by itself: see GlassLayer.
@@ -41,6 +44,8 @@ class GlColourPass : public ColourPass {
     GlFramebuffer target;
   };
   void resize(int width, int height);
+  void draw_radiance(const ViewProjection& view, const Pose& world_from_camera, const SurfaceImages& surfaces,
+                     const FrameLight& light);
   void hand_over(const ViewProjection& view, const SurfaceImages& surfaces);
   void draw_behind(const ViewProjection& view, const Pose& world_from_camera, const SurfaceImages& surfaces,
                    const FrameLight& light);
@@ -76,8 +81,9 @@ class GlColourPass : public ColourPass {
   const GlTexture* nodes_ = nullptr;  // light for what was drawn last
   std::vector<Behind> behind_;  // the outermost first
   const GlTexture* shown_behind_ = nullptr;  // by what is drawn next; null: nothing
-  GlTexture colour_, metered_;
-  GlFramebuffer target_, meter_target_;
+  GlTexture colour_, metered_, radiance_;
+  GlFramebuffer target_, meter_target_, radiance_target_;
+  int radiance_width_ = 0, radiance_height_ = 0;
   GlProgram exposure_;  // of what was metered, into the block of the frame
   GlProgram finish_programs_[2];  // by `smooth`
   GlBuffer rgb_;                  // three bytes a pixel

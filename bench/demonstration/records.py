@@ -74,9 +74,12 @@ def mean(bins, count, total, low, high):
 class Records:
     def __init__(self, path=FILE):
         self.path = pathlib.Path(path)
-        lines = self.path.read_text().splitlines() if self.path.exists() else []
-        self.kept = {tuple(r["key"]): r for r in map(json.loads, lines)}
+        self.kept = self.read()
         self.golden = golden_hash()
+
+    def read(self):
+        lines = self.path.read_text().splitlines() if self.path.exists() else []
+        return {tuple(r["key"]): r for r in map(json.loads, lines)}
 
     def depends(self, *parts):
         """parts: whatever the result follows from besides the program."""
@@ -88,11 +91,12 @@ class Records:
         return record if record and record["depends"] == depends else None
 
     def add(self, key, depends, commit, result):
-        """result: what the record has besides."""
-        self.kept[tuple(key)] = {"key": list(key), "commit": commit, "depends": depends, **result}
-        part = self.path.with_suffix(".part")
-        part.write_text("".join(json.dumps(self.kept[key]) + "\n" for key in sorted(self.kept)))
-        os.replace(part, self.path)
+        """result: what the record has besides. What other commands have added meanwhile stays."""
+        with stages.locked(self.path.parent):
+            self.kept = {**self.read(), tuple(key): {"key": list(key), "commit": commit, "depends": depends, **result}}
+            part = self.path.with_suffix(".part")
+            part.write_text("".join(json.dumps(self.kept[key]) + "\n" for key in sorted(self.kept)))
+            os.replace(part, self.path)
 
 
 def flight_parts(flown, row):

@@ -1,8 +1,11 @@
 #!/usr/bin/python3
 """The parts of bench/demonstration that need neither the program nor COLMAP, against known answers."""
+import os
 import pathlib
+import subprocess
 import sys
 import tempfile
+import threading
 
 import numpy as np
 
@@ -76,6 +79,40 @@ def check_stages():
             assert len(made) == 2
 
 
+def check_commands_at_once():
+    """Two commands make a stage once, keep each other's records, and leave nothing that runs on when they are ended."""
+    with tempfile.TemporaryDirectory() as folder:
+        jobs, made, within = work.Work(folder, __file__, hours=1), [], threading.Event()
+
+        def make(place):
+            made.append(place)
+            within.set()
+            with work.locked(pathlib.Path(folder) / "go"):
+                pass
+
+        with work.locked(pathlib.Path(folder) / "go"):
+            both = [threading.Thread(target=jobs.stage, args=("x", {"a": 1}, make, "one")) for _ in range(2)]
+            for one in both:
+                one.start()
+            within.wait()
+        for one in both:
+            one.join()
+        assert len(made) == 1
+        path = pathlib.Path(folder) / "records.jsonl"
+        first, second = records.Records(path), records.Records(path)
+        first.add(["a"], first.depends(1), "0123456789ab", {"score": 1})
+        second.add(["b"], second.depends(2), "0123456789ab", {"score": 2})
+        assert set(records.Records(path).kept) == {("a",), ("b",)}
+        fifo = pathlib.Path(folder) / "fifo"
+        os.mkfifo(fifo)
+        code = "import sys; sys.path.insert(0, %r); import work; work.Work(%r, %r, 1); work.run(['sh', '-c', 'exec 9>%s; read x'], %r)"
+        held = subprocess.Popen([sys.executable, "-c", code % (str(pathlib.Path(work.__file__).parent), folder, __file__, fifo, folder + "/log")],
+                                stdin=subprocess.PIPE)
+        with open(fifo, "rb") as open_in_child:  # ends with the child
+            held.terminate()
+            assert open_in_child.read() == b"" and held.wait() == 143
+
+
 def check_records():
     """Means over bins are those over frames; a record is found again until anything that it depends on is another."""
     into = [-0.3, 0.1, 0.2, 0.6, 1.4, 0.7, 0.4]
@@ -114,5 +151,6 @@ if __name__ == "__main__":
     check_true_matches()
     check_carriers()
     check_stages()
+    check_commands_at_once()
     check_records()
     check_plan()

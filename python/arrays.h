@@ -85,12 +85,8 @@ inline void expect_positive(double value, const char* name, double most = std::n
   throw InputError({"", 0, name, "out of range", expected, format_number(value), ""});
 }
 
-// A pose as x, y, z, then the quaternion w, x, y, z of any length but zero.
-inline Pose to_pose(const DoubleArray& values, const char* name) {
-  if (values.ndim() != 1 || values.shape(0) != 7)
-    throw InputError({"", 0, name, "wrong shape", "(7,): x y z qw qx qy qz", shape_of(values), ""});
-  expect_finite(values, name);
-  const double* v = values.data();
+// Of seven finite numbers.
+inline Pose read_pose(const double* v, const char* name) {
   for (int i = 0; i < 3; ++i)
     if (!(std::abs(v[i]) <= kFarthest))
       throw InputError({"", 0, name, "out of range", "x y z from -1e9 to 1e9 m", format_number(v[i]), ""});
@@ -99,6 +95,25 @@ inline Pose to_pose(const DoubleArray& values, const char* name) {
   if (!(squares > 1e-12 && std::isfinite(squares)))
     throw InputError({"", 0, name, "no rotation", "a quaternion that is not zero", squares > 1 ? "too large numbers" : "zeros", ""});
   return {normalized(q), {v[0], v[1], v[2]}};
+}
+
+// A pose as x, y, z, then the quaternion w, x, y, z of any length but zero.
+inline Pose to_pose(const DoubleArray& values, const char* name) {
+  if (values.ndim() != 1 || values.shape(0) != 7)
+    throw InputError({"", 0, name, "wrong shape", "(7,): x y z qw qx qy qz", shape_of(values), ""});
+  expect_finite(values, name);
+  return read_pose(values.data(), name);
+}
+
+// Rows of such poses. A single one is taken, too.
+inline std::vector<Pose> to_poses(const DoubleArray& values, const char* name) {
+  const bool row = values.ndim() == 1 && values.shape(0) == 7;
+  if (!row && (values.ndim() != 2 || values.shape(1) != 7))
+    throw InputError({"", 0, name, "wrong shape", "(7,) or (n, 7): x y z qw qx qy qz", shape_of(values), ""});
+  expect_finite(values, name);
+  std::vector<Pose> poses;
+  for (Size i = 0; i < values.size(); i += 7) poses.push_back(read_pose(values.data() + i, name));
+  return poses;
 }
 
 // A whole number from 0 to `most`. Throws InputError for anything else, where nanobind would list signatures.

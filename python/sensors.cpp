@@ -51,12 +51,25 @@ class FrameRenderer : public OneThread {
 
   nb::dict render(const DoubleArray& world_from_camera, int width, int height, double fov_deg, int number,
                   const std::array<double, 2>& shift) {
-    const Pose pose = to_pose(world_from_camera, "pose");
+    const std::vector<Pose> poses = to_poses(world_from_camera, "pose");
     const Intrinsics k = pinhole(width, height, fov_deg, shift[0], shift[1]);
-    Frame frame = renderer_->render(pose, k, number, settled_->mission.scenario.start_ns);
+    std::vector<std::uint8_t> rgb;
+    std::vector<float> depth;
+    {
+      const nb::gil_scoped_release free;
+      renderer_->render(poses, k, number, settled_->mission.scenario.start_ns, [&](Frame frame) {
+        if (poses.size() == 1) return void((rgb = std::move(frame.rgb), depth = std::move(frame.depth)));
+        rgb.insert(rgb.end(), frame.rgb.begin(), frame.rgb.end());
+        depth.insert(depth.end(), frame.depth.begin(), frame.depth.end());
+      });
+    }
+    Shape image{height, width};
+    if (world_from_camera.ndim() == 2) image.insert(image.begin(), Size(poses.size()));
+    Shape colours = image;
+    colours.push_back(3);
     nb::dict out;
-    out["rgb"] = take_vector(std::move(frame.rgb), {height, width, 3});
-    out["depth"] = take_vector(std::move(frame.depth), {height, width});
+    out["rgb"] = take_vector(std::move(rgb), colours);
+    out["depth"] = take_vector(std::move(depth), image);
     out["K"] = camera_matrix(k);
     return out;
   }
@@ -76,13 +89,18 @@ class DepthCamera : public OneThread {
   }
 
   Array<float> depth(const DoubleArray& world_from_camera) {
-    const Pose pose = to_pose(world_from_camera, "pose");
+    const std::vector<Pose> poses = to_poses(world_from_camera, "pose");
     const Intrinsics& k = rays_.intrinsics();
-    Array<float> out = make_array<float>({k.height, k.width});
-    float* const values = out.data();
+    Shape image{k.height, k.width};
+    if (world_from_camera.ndim() == 2) image.insert(image.begin(), Size(poses.size()));
+    Array<float> out = make_array<float>(image);
+    float* values = out.data();
     {
       const nb::gil_scoped_release free;
-      rays_.cast(world_, pose, pool_, values);
+      for (const Pose& pose : poses) {
+        rays_.cast(world_, pose, pool_, values);
+        values += std::size_t(k.width) * std::size_t(k.height);
+      }
     }
     return out;
   }

@@ -1,5 +1,8 @@
 #include "render/renderer.h"
 
+#include <algorithm>
+#include <deque>
+
 #include "kernel/base/error.h"
 #include "render/view/view_source.h"
 
@@ -10,6 +13,15 @@ namespace {
 ViewRays pinhole_view(const Pose& world_from_camera, const Intrinsics& k, std::int64_t stamp_ns) {
   return {stamp_ns, k, world_from_camera};
 }
+
+// That of a frame of this number.
+ViewRays numbered_view(const Pose& world_from_camera, const Intrinsics& k, int index, std::int64_t stamp_ns) {
+  ViewRays rays = pinhole_view(world_from_camera, k, stamp_ns);
+  rays.noise = 2 * std::uint64_t(index);  // as the left image of a Camera
+  return rays;
+}
+
+constexpr std::size_t kMostAhead = 4;  // views of a device at once
 
 }  // namespace
 
@@ -72,9 +84,21 @@ const Medium& Renderer::medium() const { return source_->scene.medium; }
 
 Frame Renderer::render(const Pose& world_from_camera, const Intrinsics& intrinsics, int index,
                        std::int64_t stamp_ns) {
-  ViewRays rays = pinhole_view(world_from_camera, intrinsics, stamp_ns);
-  rays.noise = 2 * std::uint64_t(index);  // as the left image of a Camera
-  return render(rays, index);
+  return render(numbered_view(world_from_camera, intrinsics, index, stamp_ns), index);
+}
+
+void Renderer::render(const std::vector<Pose>& world_from_camera, const Intrinsics& intrinsics, int index, std::int64_t stamp_ns,
+                      const std::function<void(Frame)>& take) {
+  const std::size_t ahead = runs_ahead() ? kMostAhead : 1;
+  std::deque<RenderedView> begun;
+  for (std::size_t i = 0, next = 0; i < world_from_camera.size(); ++i) {
+    for (; next < std::min(i + ahead, world_from_camera.size()); ++next) {
+      begun.push_back(view(numbered_view(world_from_camera[next], intrinsics, index + int(next), stamp_ns)));
+      begun.back().begin();
+    }
+    take(std::move(begun.front()).into_frame(index + int(i)));
+    begun.pop_front();
+  }
 }
 
 Frame Renderer::render(const ViewRays& rays, int index) { return view(rays).into_frame(index); }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "render/camera/view_rays.h"
 #include "render/device/device.h"
@@ -52,6 +53,10 @@ class Renderer {
   Frame render(const Pose& world_from_camera, const Intrinsics& intrinsics, int index,
                std::int64_t stamp_ns);
   Frame render(const ViewRays& rays, int index);
+  // The same of many poses, one after the other: index is that of the first, and each frame goes to `take`. A device that
+  // runs ahead always has some to draw.
+  void render(const std::vector<Pose>& world_from_camera, const Intrinsics& intrinsics, int index, std::int64_t stamp_ns,
+              const std::function<void(Frame)>& take);
   LinearFrame render_linear(const Pose& world_from_camera, const Intrinsics& intrinsics);
   LinearFrame render_linear(const ViewRays& rays);
 

@@ -11,15 +11,16 @@ from . import _core
 
 class Renderer:
     """Draws frames as `rubble run` does: colour and exact depth. Preparing one bakes the light of the pile
-    (seconds; kept in the cache). Needs EGL; use it on the thread that made it."""
+    (seconds; kept in the cache). Use it on the thread that made it."""
 
     def __init__(self, pile: _core.Pile, threads: int = 0) -> None:
         self._made = _core._Renderer(pile._shared, threads or pile.threads)
 
     def render(self, pose: ArrayLike, width: int = 640, height: int = 480,
                fov_deg: float = 90.0, number: int = 0, shift: tuple[float, float] = (0.0, 0.0)) -> dict[str, NDArray[Any]]:
-        """dict of rgb (h, w, 3) uint8, depth (h, w) float32 along the optical axis (nan: nothing), K (3, 3). Pictures
-        of other numbers have other noise, which hides the steps of 8 bits. shift: of the principal point from the middle, to
+        """dict of rgb (h, w, 3) uint8, depth (h, w) float32 along the optical axis (nan: nothing), K (3, 3). Of n poses, (n, 7):
+        rgb (n, h, w, 3) and depth (n, h, w), so that a graphics card always has some to draw. Pictures of other numbers have
+        other noise, which hides the steps of 8 bits; of several, `number` is the first. shift: of the principal point from the middle, to
         the right and downwards; pixel."""
         return self._made.render(pose, width, height, fov_deg, number, shift)
 
@@ -34,7 +35,7 @@ class DepthCamera:
         self.K = self._made.K
 
     def depth(self, pose: ArrayLike) -> NDArray[np.float32]:
-        """(h, w) float32; inf: nothing within max_range along the ray."""
+        """(h, w) float32; inf: nothing within max_range along the ray. Of n poses, (n, 7): (n, h, w)."""
         return self._made.depth(pose)
 
 

@@ -45,6 +45,20 @@ class Sensors(unittest.TestCase):
         self.assertGreater(frame["rgb"].std(), 1)
         np.testing.assert_allclose(frame["K"][0, 0], 48 / np.tan(np.radians(35)))
 
+    def test_many_poses_at_once_are_as_one_by_one(self):
+        eyes = np.stack([rubble.look_at([-1 - 0.2 * i, 0.5, 2], [3, 0, 1]) for i in range(6)])
+        renderer, camera = rubble.Renderer(self.pile), rubble.DepthCamera(self.pile, 48, 32)
+        many = renderer.render(eyes, 48, 32, number=5)
+        self.assertEqual(many["rgb"].shape, (6, 32, 48, 3))
+        for i, eye in enumerate(eyes):
+            one = renderer.render(eye, 48, 32, number=5 + i)
+            np.testing.assert_array_equal(many["rgb"][i], one["rgb"])
+            np.testing.assert_array_equal(many["depth"][i], one["depth"])
+            np.testing.assert_array_equal(camera.depth(eyes)[i], camera.depth(eye))
+        self.assertEqual(renderer.render(eyes[:1], 48, 32)["depth"].shape, (1, 32, 48))
+        self.assertEqual(renderer.render(eyes[:0], 48, 32)["depth"].shape, (0, 32, 48))
+        self.assertEqual(camera.depth(eyes[:0]).shape, (0, 32, 48))
+
     def test_a_lidar_meets_wall_and_ground(self):
         lidar = rubble.Lidar(self.pile, "vlp16", noise=False)
         points = lidar.scan(rubble.pose([0, 0, 1.5]))

@@ -18,10 +18,10 @@ class Renderer:
 
     def render(self, pose: ArrayLike, width: int = 640, height: int = 480,
                fov_deg: float = 90.0, number: int = 0, shift: tuple[float, float] = (0.0, 0.0)) -> dict[str, NDArray[Any]]:
-        """dict of rgb (h, w, 3) uint8, depth (h, w) float32 along the optical axis (nan: nothing), K (3, 3). Of n poses, (n, 7):
-        rgb (n, h, w, 3) and depth (n, h, w), so that a graphics card always has some to draw. Pictures of other numbers have
-        other noise, which hides the steps of 8 bits; of several, `number` is the first. shift: of the principal point from the middle, to
-        the right and downwards; pixel."""
+        """dict of rgb (h, w, 3) uint8, depth (h, w) float32 along the optical axis (nan: nothing), K (3, 3). Of n poses,
+        (n, 7): rgb (n, h, w, 3) and depth (n, h, w), so that a graphics card always has some to draw. Pictures of other
+        numbers have other noise, which hides the steps of 8 bits; of several, `number` is the first. shift: of the principal
+        point from the middle, to the right and downwards; pixel."""
         return self._made.render(pose, width, height, fov_deg, number, shift)
 
 

@@ -39,6 +39,14 @@ class DrawnColours {
   virtual float take(std::vector<std::uint8_t>& rgb) = 0;
 };
 
+// Likewise, before exposure and tone mapping.
+class DrawnRadiance {
+ public:
+  virtual ~DrawnRadiance() = default;
+  // 4 floats a pixel (R, G, B in kcd/m2), once.
+  virtual std::vector<float> take() = 0;
+};
+
 class ColourPass {
  public:
   virtual ~ColourPass() = default;
@@ -54,10 +62,8 @@ class ColourPass {
   // What was drawn; a device starts now. smooth: with smooth edges (passes/antialias.h).
   virtual std::unique_ptr<DrawnColours> finish(const SurfaceImages& surfaces, bool smooth) = 0;
 
-  // Radiance before exposure and tone mapping, 4 floats a pixel (R, G, B in kcd/m2).
-  virtual std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
-                                         const SurfaceImages& surfaces,
-                                         const FrameLight& light) = 0;
+  virtual std::unique_ptr<DrawnRadiance> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
+                                                     const SurfaceImages& surfaces, const FrameLight& light) = 0;
 
   // For what an event camera sees. Null: this device does not find it; draw_linear() has the light.
   virtual std::unique_ptr<LightWatch> make_light_watch(const WatchedPixels& pixels) { return (void)pixels, nullptr; }

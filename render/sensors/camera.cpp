@@ -74,7 +74,7 @@ struct Camera::State {
   };
   std::optional<Ahead> ahead;
   RenderedView open_begun_view(int index);
-  void begin_next(int index);
+  void begin_next(int index, RenderedView::Begun what);
   std::vector<MomentNearby> way_between(std::int64_t from, std::int64_t to, std::int64_t frame_ns, const Pose& at_frame,
                                         RenderedView& view) const;
   Frame take_ideal(int index);
@@ -181,10 +181,10 @@ RenderedView Camera::State::open_begun_view(int index) {
 }
 
 // So that a device has work while the processor reads and keeps the frame.
-void Camera::State::begin_next(int index) {
+void Camera::State::begin_next(int index, RenderedView::Begun what) {
   if (index + 1 >= int(flight.stamps_ns.size()) || !renderer.runs_ahead()) return;
   ahead = Ahead{index + 1, open_view(index + 1)};
-  ahead->view.begin();
+  ahead->view.begin(what);
 }
 
 std::vector<float> Camera::State::measure_depth(int index, RenderedView& view) {
@@ -204,13 +204,13 @@ Frame Camera::State::take_ideal(int index) {
   RenderedView view = open_begun_view(index);
   view.begin();
   const bool stereo = spec.baseline > 0;  // the right image needs the exposure of the left
-  if (!stereo) begin_next(index);
+  if (!stereo) begin_next(index, RenderedView::Begun::rgb);
   std::vector<float> measured = measure_depth(index, view);
   const ViewRays right = right_of(view.rays());
   const float exposed = view.exposure();
   Frame frame = std::move(view).into_frame(index, spec.channels);
   frame.measured_depth = std::move(measured);
-  if (stereo) frame.rgb_right = renderer.view(right).rgb_at(exposed), begin_next(index);
+  if (stereo) frame.rgb_right = renderer.view(right).rgb_at(exposed), begin_next(index, RenderedView::Begun::rgb);
   return frame;
 }
 
@@ -247,21 +247,27 @@ std::vector<float> Camera::State::gather_light(int index, const LinearFrame* mid
                                                double time, bool right) {
   std::vector<float> sum;
   const int count = int(std::max<std::size_t>(1, pixel_parts.size()));
+  const auto is_middle = [&](int i) { return middle && count == 1 && i == samples / 2; };
+  const auto begin = [&](int i) -> std::optional<RenderedView> {
+    if (i == samples * count || is_middle(i)) return std::nullopt;
+    const double seconds_off = time * ((i / count + 0.5) / samples - 0.5);
+    const ViewRays view = view_beside(view_at(index, seconds_off), i % count);
+    RenderedView begun = renderer.view(right ? right_of(view) : view);
+    begun.begin(RenderedView::Begun::radiance);
+    return begun;
+  };
   const float share = 1.0f / float(samples * count);
+  std::optional<RenderedView> next = begin(0);
   for (int i = 0; i < samples * count; ++i) {
+    std::optional<RenderedView> now = std::exchange(next, begin(i + 1));
     LinearFrame drawn;
-    const LinearFrame* image = middle;
-    if (!middle || count > 1 || i != samples / 2) {
-      const double seconds_off = time * ((i / count + 0.5) / samples - 0.5);
-      const ViewRays view = view_beside(view_at(index, seconds_off), i % count);
-      drawn = renderer.render_linear(right ? right_of(view) : view);
-      image = &drawn;
-    }
-    if (sum.empty()) sum.assign(image->rgb.size(), 0);
+    if (now) drawn = std::move(*now).into_linear_frame();
+    const LinearFrame& image = now ? drawn : *middle;
+    if (sum.empty()) sum.assign(image.rgb.size(), 0);
     if (optics && optics->defocuses())
-      add_scaled(sum, defocus(*image), share);
+      add_scaled(sum, defocus(image), share);
     else
-      add_scaled(sum, image->rgb, share);
+      add_scaled(sum, image.rgb, share);
   }
   if (!renderer.medium().falling().empty()) add_drops(index, middle, time, right, sum);
   return optics ? optics->spread(std::move(sum), right ? 1 : 0) : sum;
@@ -298,7 +304,9 @@ ExposureSettings Camera::State::expose(int index, RenderedView& view) {
 }
 
 Frame Camera::State::take_exposed(int index) {
-  RenderedView view = open_view(index);
+  RenderedView view = open_begun_view(index);
+  view.begin(RenderedView::Begun::radiance);
+  begin_next(index, RenderedView::Begun::radiance);
   const ExposureSettings settings = expose(index, view);
   const int samples = count_samples(index, view, settings);
   Frame frame;

@@ -214,12 +214,16 @@ std::vector<LightChange> ColourDrawer::draw_changes(const ViewRays& view, DrawnS
   return resolve_->draw_changes(projection_of(view), view.world_from_camera, images, light, watch);
 }
 
-std::vector<float> ColourDrawer::draw_radiance(const ViewRays& view, DrawnSurfaces& surfaces) {
+StartedRadiance ColourDrawer::start_radiance(const ViewRays& view, DrawnSurfaces& surfaces) {
   scene_.move_to(view.stamp_ns);
-  if (reference_) return trace(view);
+  if (reference_) return {trace(view), nullptr};
   const SurfaceImages images = surfaces.images();
   const FrameLight light = light_linear(view, surfaces);
-  return first_three_of_four(resolve_->draw_linear(projection_of(view), view.world_from_camera, images, light));
+  return {{}, resolve_->draw_linear(projection_of(view), view.world_from_camera, images, light)};
+}
+
+std::vector<float> ColourDrawer::collect(StartedRadiance started) {
+  return started.coming ? first_three_of_four(started.coming->take()) : std::move(started.traced);
 }
 
 }  // namespace rubble

@@ -27,6 +27,12 @@ struct StartedColours {
   std::unique_ptr<DrawnColours> coming;  // null: all
 };
 
+// The same of radiance.
+struct StartedRadiance {
+  std::vector<float> traced;              // 3 floats a pixel; path traced
+  std::unique_ptr<DrawnRadiance> coming;  // null: that is all
+};
+
 class ColourDrawer {
  public:
   // The scene must outlive it.
@@ -39,7 +45,8 @@ class ColourDrawer {
   StartedColours start(const ViewRays& view, DrawnSurfaces& surfaces, std::optional<float> exposure);
   static ColourImage collect(StartedColours started);  // waits for the device
   // Before exposure and tone mapping: 3 floats a pixel; unit: kcd/m2. Without the drops of DropDrawer.
-  std::vector<float> draw_radiance(const ViewRays& view, DrawnSurfaces& surfaces);
+  StartedRadiance start_radiance(const ViewRays& view, DrawnSurfaces& surfaces);
+  static std::vector<float> collect(StartedRadiance started);
   // As ColourPass has them. Null: where colours are path traced as well.
   std::unique_ptr<LightWatch> make_light_watch(const WatchedPixels& pixels) const;
   std::vector<LightChange> draw_changes(const ViewRays& view, DrawnSurfaces& surfaces, LightWatch& watch);

@@ -33,6 +33,7 @@ struct RenderedView::State {
   RenderTimes times;
   std::unique_ptr<DrawnSurfaces> surfaces;  // none: not drawn yet
   std::optional<StartedColours> started;  // colour, by begin()
+  std::optional<StartedRadiance> started_radiance;
   std::optional<ColourImage> colour;
   std::optional<std::vector<float>> radiance;
   TruthImages truth;
@@ -81,7 +82,7 @@ DrawnView RenderedView::State::view_of_truth(const ViewRays* following) {
 
 RenderedView::RenderedView(ViewSource& source, const ViewRays& rays, const ViewRays* next) {
   check_view(rays);
-  state_.reset(new State{source, rays, {}, {}, nullptr, {}, {}, {}, {}});
+  state_.reset(new State{source, rays, {}, {}, nullptr, {}, {}, {}, {}, {}});
   if (next) state_->next = *next;
 }
 
@@ -91,11 +92,15 @@ RenderedView& RenderedView::operator=(RenderedView&&) noexcept = default;
 
 const ViewRays& RenderedView::rays() const { return state_->rays; }
 
-void RenderedView::begin() {
+void RenderedView::begin(Begun what) {
   State& s = *state_;
   const LitScene& scene = s.source.scene;
-  if (s.colour || s.started || !scene.device.runs_ahead() || scene.is_traced()) return;
-  s.started = s.source.colours.start(s.rays, s.drawn(), std::nullopt);
+  if (!scene.device.runs_ahead() || scene.is_traced()) return;
+  if (what == Begun::radiance) {
+    if (!s.radiance && !s.started_radiance) s.started_radiance = s.source.colours.start_radiance(s.rays, s.drawn());
+  } else if (!s.colour && !s.started) {
+    s.started = s.source.colours.start(s.rays, s.drawn(), std::nullopt);
+  }
 }
 
 const std::vector<float>& RenderedView::depth() { return state_->drawn().planar_depth(); }
@@ -133,7 +138,11 @@ std::vector<std::uint8_t> RenderedView::rgb_at(float exposure) {
 
 const std::vector<float>& RenderedView::radiance() {
   State& s = *state_;
-  if (!s.radiance) s.radiance = s.source.colours.draw_radiance(s.rays, s.drawn());
+  if (s.radiance) return *s.radiance;
+  if (!s.started_radiance) s.started_radiance = s.source.colours.start_radiance(s.rays, s.drawn());
+  s.source.scene.device.make_current();
+  s.radiance = ColourDrawer::collect(std::move(*s.started_radiance));
+  s.started_radiance.reset();
   return *s.radiance;
 }
 

@@ -42,9 +42,10 @@ class RenderedView {
 
   const ViewRays& rays() const;
 
-  // Asks a device that runs ahead for colour and depth: others may be drawn before these are read, so that it always has
-  // work. No effect where the processor draws.
-  void begin();
+  // Asks a device that runs ahead for rgb() or radiance(), and depth: others may be drawn before these are read, so that it
+  // always has work. No effect where the processor draws.
+  enum class Begun { rgb, radiance };
+  void begin(Begun what = Begun::rgb);
 
   // Planar: along the optical axis; NaN: nothing there, or beside and behind the camera; unit: m.
   const std::vector<float>& depth();

@@ -64,6 +64,35 @@ TEST(Camera, GivesTheSameFramesWhereADeviceRunsAhead) {
   }
 }
 
+// A real camera follows what it has seen, and its light comes from several images.
+TEST(Camera, FollowsTheLightWhereADeviceRunsAhead) {
+  const Scene scene = make_heap(60, 2);
+  GlDevice device;
+  const Flight flight = fly(5, [](double t) { return look_at({5 - 12 * t, 1, 1.4}, {0, 0, 0.5}); });
+  CameraSpec spec;
+  spec.intrinsics = pinhole(64, 48, 40);
+  spec.exposure.mode = ExposureMode::automatic;
+  Renderer renderer(device, scene, plain()), other(device, scene, plain());
+  Camera camera(renderer, spec, flight);
+  Flight first = flight;  // a camera that does not know where it goes next
+  first.stamps_ns.resize(1), first.world_from_camera.resize(1);
+  Camera blind(other, spec, first);
+  for (int i = 0; i < camera.frames(); ++i) {
+    if (i > 0) blind.fly_on(flight.stamps_ns[std::size_t(i)], flight.world_from_camera[std::size_t(i)]);
+    const Frame frame = camera.take(i), alone = blind.take(i);
+    EXPECT_TRUE(frame.rgb == alone.rgb) << i;
+    EXPECT_EQ(frame.exposure_s, alone.exposure_s) << i;
+  }
+  spec.exposure.mode = ExposureMode::fixed, spec.exposure.time = 0.02, spec.shutter.motion_blur = true;
+  Renderer blurred(device, scene, plain());
+  Camera moving(blurred, spec, flight);
+  for (int i = 0; i < moving.frames(); ++i) {
+    const Frame frame = moving.take(i);
+    Renderer fresh(device, scene, plain());
+    EXPECT_TRUE(frame.rgb == Camera(fresh, spec, flight).take(i).rgb) << i;
+  }
+}
+
 // From noon's open sky into the dark of a box and back, once a second: each frame is that of a camera
 // that never saw another one.
 TEST(Camera, AnIdealExposureMetersTheFrameItself) {

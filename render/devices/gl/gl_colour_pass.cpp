@@ -92,6 +92,20 @@ class ComingColours : public DrawnColours {
   std::shared_ptr<GlComing> coming_;  // the exposure, and three bytes a pixel
 };
 
+class ComingRadiance : public DrawnRadiance {
+ public:
+  explicit ComingRadiance(std::shared_ptr<GlComing> coming) : coming_(std::move(coming)) {}
+
+  std::vector<float> take() override {
+    std::vector<float> out(coming_->size() / sizeof(float));
+    coming_->take(out.data());
+    return out;
+  }
+
+ private:
+  std::shared_ptr<GlComing> coming_;
+};
+
 constexpr std::size_t kExposureAt = offsetof(FrameBlock, view) / sizeof(float) + 1;  // in the block of the frame
 
 enum Unit {
@@ -420,14 +434,13 @@ void GlColourPass::draw_radiance(const ViewProjection& view, const Pose& world_f
   check_gl(gl_, "drawing the linear image");
 }
 
-std::vector<float> GlColourPass::draw_linear(const ViewProjection& view, const Pose& world_from_camera,
-                                             const SurfaceImages& surfaces, const FrameLight& light) {
+std::unique_ptr<DrawnRadiance> GlColourPass::draw_linear(const ViewProjection& view, const Pose& world_from_camera,
+                                                         const SurfaceImages& surfaces, const FrameLight& light) {
   draw_radiance(view, world_from_camera, surfaces, light);
-  std::vector<float> out(std::size_t(radiance_width_) * std::size_t(radiance_height_) * 4);
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, radiance_target_.name());
-  take_pixels(gl_, radiance_width_, radiance_height_, GL_RGBA, GL_FLOAT, out.data());
-  check_gl(gl_, "reading the linear image back");
-  return out;
+  auto coming = readback_.ask(radiance_width_, radiance_height_, GL_RGBA, GL_FLOAT);
+  gl_.Flush();  // the card starts while the processor goes on
+  return std::make_unique<ComingRadiance>(std::move(coming));
 }
 
 std::unique_ptr<LightWatch> GlColourPass::make_light_watch(const WatchedPixels& pixels) {

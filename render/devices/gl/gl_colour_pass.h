@@ -31,8 +31,8 @@ class GlColourPass : public ColourPass {
             const SurfaceImages& surfaces, const FrameLight& light, std::optional<float> exposure,
             bool metered) override;
   std::unique_ptr<DrawnColours> finish(const SurfaceImages& surfaces, bool smooth) override;
-  std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
-                                 const SurfaceImages& surfaces, const FrameLight& light) override;
+  std::unique_ptr<DrawnRadiance> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
+                                             const SurfaceImages& surfaces, const FrameLight& light) override;
   std::unique_ptr<LightWatch> make_light_watch(const WatchedPixels& pixels) override;
   std::vector<LightChange> draw_changes(const ViewProjection& view, const Pose& world_from_camera,
                                         const SurfaceImages& surfaces, const FrameLight& light, LightWatch& watch) override;

@@ -27,6 +27,12 @@ struct FinishedColours : DrawnColours {
   }
 };
 
+struct FinishedRadiance : DrawnRadiance {
+  std::vector<float> values;
+
+  std::vector<float> take() override { return std::move(values); }
+};
+
 class SoftwareColourPass : public ColourPass {
  public:
   SoftwareColourPass(const PreparedScene& scene, const SceneTables& tables, const SoftwareShadowMap& shadows,
@@ -84,14 +90,15 @@ class SoftwareColourPass : public ColourPass {
     return out;
   }
 
-  std::vector<float> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
-                                 const SurfaceImages& surfaces, const FrameLight& light) override {
+  std::unique_ptr<DrawnRadiance> draw_linear(const ViewProjection& view, const Pose& world_from_camera,
+                                             const SurfaceImages& surfaces, const FrameLight& light) override {
     shade_behind(view, world_from_camera, surfaces, light);
     prepare(view, world_from_camera, surfaces, light, 1, Purpose::linear);
     ShadedPixels pixels;
     pixels.width = data_.width, pixels.height = data_.height;
-    std::vector<float> out(std::size_t(data_.width) * std::size_t(data_.height) * 4);
-    pixels.linear = out.data();
+    auto out = std::make_unique<FinishedRadiance>();
+    out->values.resize(std::size_t(data_.width) * std::size_t(data_.height) * 4);
+    pixels.linear = out->values.data();
     shade(pixels);
     return out;
   }

@@ -73,7 +73,7 @@ void GlComing::take(void* to, std::size_t offset, std::size_t bytes) {
     gl_->traffic->done = asked_;
   }
   gl_->traffic->taken += bytes;
-  std::memcpy(to, memory_ + offset, bytes);
+  if (bytes > 0) std::memcpy(to, memory_ + offset, bytes);
 }
 
 std::shared_ptr<GlComing> GlReadback::open(std::size_t bytes) {

@@ -18,6 +18,8 @@ struct PlaneBlock {
   float lens[4];
 };
 
+constexpr std::size_t kMostImages = 6;  // from here on those that nobody has are given up before others are made
+
 }  // namespace
 
 GlRaster::GlRaster(const Gl& gl, const PreparedScene& scene, const GlGeometry& geometry)
@@ -178,13 +180,14 @@ std::shared_ptr<GlRaster::Images> GlRaster::make_images(int width, int height) c
   return out;
 }
 
-// Those of the view before are left alone while somebody has them.
+// Those of the view before are left alone while somebody has them. Cameras of a mission may have several sizes.
 void GlRaster::choose_images(int width, int height) {
   drawn_.reset();
-  if (!images_.empty() && (images_.front()->width != width || images_.front()->height != height)) images_.clear();
+  const auto is_free = [](const std::shared_ptr<Images>& images) { return images.use_count() == 1; };
   for (const auto& images : images_) {
-    if (images.use_count() == 1) drawn_ = images;
+    if (is_free(images) && images->width == width && images->height == height) drawn_ = images;
   }
+  if (!drawn_ && images_.size() >= kMostImages) images_.erase(std::remove_if(images_.begin(), images_.end(), is_free), images_.end());
   if (!drawn_) drawn_ = images_.emplace_back(make_images(width, height));
   drawn_->values_coming.reset(), drawn_->ids_coming.reset(), drawn_->triangles_coming.reset();
   drawn_->values_taken = false;

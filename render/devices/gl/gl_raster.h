@@ -62,7 +62,7 @@ class GlRaster : public TriangleRaster {
   GlBuffer block_;
   GlVertexArray empty_array_;
   const ViewProjection* view_ = nullptr;
-  std::vector<std::shared_ptr<Images>> images_;  // of one size; those that nobody else has are free
+  std::vector<std::shared_ptr<Images>> images_;  // those that nobody else has are free
   std::shared_ptr<Images> drawn_;                // one of them
   mutable GlReadback readback_;
   // ids: come back with the depth where those of the image before were asked for.

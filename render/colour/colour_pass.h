@@ -9,7 +9,7 @@
 
 #include "render/camera/projection.h"
 #include "render/colour/frame_light.h"
-#include "render/device/light_watch.h"
+#include "render/colour/light_watch.h"
 #include "render/lighting/exposure.h"
 #include "render/passes/glass_layers.h"
 

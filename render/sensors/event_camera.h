@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/device/light_watch.h"
+#include "render/colour/light_watch.h"
 #include "render/scene/camera_spec.h"
 
 namespace rubble {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "render/camera/view_rays.h"
-#include "render/device/light_watch.h"
+#include "render/colour/light_watch.h"
 #include "render/media/medium.h"
 #include "render/scene/camera_spec.h"
 #include "render/scene/frame.h"

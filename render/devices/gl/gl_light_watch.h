@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "render/device/light_watch.h"
+#include "render/colour/light_watch.h"
 #include "render/gl/gl_exchange.h"
 #include "render/gl/shader.h"
 

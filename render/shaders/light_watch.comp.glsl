@@ -16,7 +16,7 @@ shared uint in_group, first_of_group;
 
 void main() {
   ivec2 size = textureSize(radiance, 0);
-  int pixel = int(gl_GlobalInvocationID.x);
+  int pixel = int((gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 256u + gl_LocalInvocationIndex);
   if (gl_LocalInvocationIndex == 0u) in_group = 0u;
   barrier();
   bool reports = false;

@@ -1,5 +1,6 @@
 #include "render/devices/gl/gl_light_watch.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
@@ -9,7 +10,7 @@ namespace rubble {
 
 namespace {
 
-constexpr int kWatchGroup = 256;  // local_size of the shader
+constexpr int kWatchGroup = 256, kWatchGroupsARow = 32768;  // local_size of the shader; a card takes 65,535 at least
 
 std::string as_literal(float value) {
   char text[32];
@@ -47,7 +48,8 @@ std::vector<LightChange> GlLightWatch::see(const GlTexture& radiance) {
   gl_.BindTextureUnit(0, radiance.name());
   gl_.ProgramUniform1i(program_.name(), gl_.GetUniformLocation(program_.name(), "first_image"), first_);
   gl_.UseProgram(program_.name());
-  gl_.DispatchCompute(GLuint((pixels_ + kWatchGroup - 1) / kWatchGroup), 1, 1);
+  const int groups = (pixels_ + kWatchGroup - 1) / kWatchGroup, row = std::min(groups, kWatchGroupsARow);
+  gl_.DispatchCompute(GLuint(row), GLuint((groups + row - 1) / row), 1);
   gl_.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
   first_ = false;
   changes->sign();

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/mission/finished_run.h"
+#include "app/mission/kept_pile.h"
 #include "app/scene/build_scene.h"
 #include "app/support/build_info.h"
 #include "app/support/drawing_device.h"
@@ -119,8 +120,10 @@ ResolvedMission resolve_render(const RunRequest& request, const FinishedRun& sav
   const std::shared_ptr<const Provenance> pile_from =
       source.pile_from ? source.pile_from : std::make_shared<const Provenance>(source);
   ResolvedMission mission;
-  const Scenario pile_source = stated_scenario(*pile_from);
+  const Scenario pile_source = stated_scenario(*pile_from), stated = loaded.scenario;
   adopt_pile(loaded.scenario, pile_source);
+  const std::string kept = describe_kept_pile(stated, loaded.scenario, mission_options(request).overrides, saved.folder);
+  if (!kept.empty()) context.warnings.push_back(kept);
   mission.pile_seed = pile_source.seed;
   mission.scenario = loaded.scenario;
   mission.provenance = make_provenance(RunKind::render, loaded, mission_options(request));

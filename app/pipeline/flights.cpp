@@ -7,6 +7,7 @@
 #include "app/mission/resolved_mission.h"
 #include "app/pipeline/live.h"
 #include "app/pipeline/run.h"
+#include "app/provenance/compare.h"
 #include "app/support/stop.h"
 #include "app/surroundings/pile_surroundings.h"
 #include "io/state/track_file.h"
@@ -32,18 +33,21 @@ Scenario load_scenario(const RunRequest& request) {
 
 // Before the pile is settled. Throws InputError: another pile, seed, or a track that the first run does not keep.
 void check_same_pile(const RunRequest& first, const Scenario& scenario, const RunRequest& other) {
-  const auto refuse = [&](const std::string& key, const std::string& message, const std::string& hint) {
-    throw InputError({other.mission, 0, key, message, "the pile of " + first.mission, "", hint});
+  const auto refuse = [&](const Difference& d, const std::string& message, const std::string& hint) {
+    throw InputError({other.mission, 0, d.path, message + first.mission, d.was, d.is, hint});
   };
   const Scenario own = load_scenario(other);
   Scenario adopted = own;
   adopt_pile(adopted, scenario);
-  if (own.seed != scenario.seed) refuse("seed", "has another seed than " + first.mission, "--seed holds for all missions");
-  if (scenario_to_json(own) != scenario_to_json(adopted))
-    refuse("pile", "states another pile than " + first.mission,
+  if (own.seed != scenario.seed)
+    refuse({"seed", std::to_string(scenario.seed), std::to_string(own.seed)}, "has another seed than ",
+           "--seed holds for all missions");
+  const std::vector<Difference> differences = list_differences(adopted, own);
+  if (!differences.empty())
+    refuse(differences[0], "states another pile than ",
            "put what they share (packs, pile, victims, fines, settle) into one file, and take it by rubble.include");
   if (needs_track(own) && !needs_track(scenario) && !first.track)
-    refuse("record_settling", "needs the track of the settling pile", "say --track");
+    refuse({"record_settling", "", ""}, "needs the track of the settling pile of ", "say --track");
 }
 
 }  // namespace

@@ -10,41 +10,35 @@
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/read_file.h"
+#include "scripting/scenario/scenario.h"
 
 namespace rubble {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string instead(const std::string& path, const Json* was, const Json* is) {
-  const auto shown = [](const Json* json) {
-    return json ? json->dump().substr(0, 80) : std::string("not there");
-  };
-  return (path.empty() ? "it" : path) + " is " + shown(is) + " instead of " + shown(was);
-}
+constexpr const char* kNotThere = "not there";
 
 std::string join(const std::string& path, const std::string& name) {
   return path.empty() ? name : path + "." + name;
 }
 
-std::string first_difference(const std::string& path, const Json& was, const Json& is) {
-  if (was == is) return "";
+void add_differences(const std::string& path, const Json& was, const Json& is, std::vector<Difference>& found) {
+  const auto shown = [](const Json& json) { return json.dump().substr(0, 80); };
+  if (was == is) return;
   if (was.is_object() && is.is_object()) {
     for (const auto& [name, value] : was.items()) {
-      if (!is.contains(name)) return instead(join(path, name), &value, nullptr);
-      const std::string found = first_difference(join(path, name), value, is[name]);
-      if (!found.empty()) return found;
+      if (is.contains(name)) add_differences(join(path, name), value, is[name], found);
+      else found.push_back({join(path, name), shown(value), kNotThere});
     }
     for (const auto& [name, value] : is.items())
-      if (!was.contains(name)) return instead(join(path, name), nullptr, &value);
+      if (!was.contains(name)) found.push_back({join(path, name), kNotThere, shown(value)});
+  } else if (was.is_array() && is.is_array() && was.size() == is.size()) {
+    for (std::size_t i = 0; i < was.size(); ++i)
+      add_differences(path + "[" + std::to_string(i + 1) + "]", was[i], is[i], found);
+  } else {
+    found.push_back({path, shown(was), shown(is)});
   }
-  if (was.is_array() && is.is_array() && was.size() == is.size())
-    for (std::size_t i = 0; i < was.size(); ++i) {
-      const std::string item = path + "[" + std::to_string(i + 1) + "]";
-      const std::string found = first_difference(item, was[i], is[i]);
-      if (!found.empty()) return found;
-    }
-  return instead(path, &was, &is);
 }
 
 constexpr std::size_t kDigestDigits = 8;
@@ -90,8 +84,20 @@ std::ifstream open_to_compare(const std::string& path) {
 
 }  // namespace
 
+std::vector<Difference> list_differences(const Json& was, const Json& is) {
+  std::vector<Difference> found;
+  add_differences("", was, is, found);
+  return found;
+}
+
+std::vector<Difference> list_differences(const Scenario& was, const Scenario& is) {
+  return list_differences(Json::parse(scenario_to_json(was)), Json::parse(scenario_to_json(is)));
+}
+
 std::string describe_difference(const Json& was, const Json& is) {
-  return first_difference("", was, is);
+  const std::vector<Difference> found = list_differences(was, is);
+  if (found.empty()) return "";
+  return (found[0].path.empty() ? "it" : found[0].path) + " is " + found[0].is + " instead of " + found[0].was;
 }
 
 std::string describe_difference(const PileState& was, const PileState& is) {

@@ -10,7 +10,17 @@
 
 namespace rubble {
 
-// "pile.layers is 3 instead of 2"
+struct Scenario;
+
+// A member that two products have differently, or one of them alone: "not there". Values: JSON, cut after 80 characters.
+struct Difference {
+  std::string path;  // "pile.mix[1].weight"
+  std::string was, is;
+};
+std::vector<Difference> list_differences(const nlohmann::ordered_json& was, const nlohmann::ordered_json& is);
+std::vector<Difference> list_differences(const Scenario& was, const Scenario& is);
+
+// "pile.layers is 3 instead of 2": the first difference.
 std::string describe_difference(const nlohmann::ordered_json& was,
                                 const nlohmann::ordered_json& is);
 

@@ -14,6 +14,11 @@ def words(settings):
     return [word for setting in settings for word in ("--set", setting)]
 
 
+def last_of_each(settings):
+    """Without those whose key a later one sets."""
+    return list({setting.split("=")[0]: setting for setting in settings}.values())
+
+
 SHOWN = (0.03, 0.12, 0.25, 0.38, 0.49)  # frames that the documents show, as shares of a flight that turns back in its middle
 
 
@@ -40,10 +45,12 @@ class Flights:
         self.work, self.size = work, size
         self.base = {"program": work.identity, "mission": stages.digest_file(stages.MISSION)}
 
-    def pile(self, seed):
-        depends = dict(self.base, seed=seed, settings=list(self.size.pile))
+    def pile(self, seed, settings=()):
+        """settings: of a row; those of fines are the pile's."""
+        settings = last_of_each([*self.size.pile, *(s for s in settings if s.startswith("fines."))])
+        depends = dict(self.base, seed=seed, settings=settings)
         return self.work.stage("pile", depends, lambda folder: self.work.run(
-            [self.work.program, "settle", stages.MISSION, *words(self.size.pile), "--seed", seed, "--out", folder / "run", "--quiet"],
+            [self.work.program, "settle", stages.MISSION, *words(settings), "--seed", seed, "--out", folder / "run", "--quiet"],
             folder / "log.txt"), "seed %d" % seed) / "run"
 
     def planned(self, seed):
@@ -62,7 +69,7 @@ class Flights:
                     carrier=row.carrier, added=added if "flight=inside" in row.settings else [])
 
     def settings(self, row):
-        return [*self.size.pile, *row.settings, *self.size.camera]
+        return last_of_each([*self.size.pile, *row.settings, *self.size.camera])
 
     def key(self, seed, row):
         return stages.digest("flight", self.depends(seed, row))
@@ -88,5 +95,5 @@ class Flights:
 
     def render(self, folder, seed, mission, settings, outputs):
         outputs = ["outputs.%s=false" % name for name in OFF if name not in outputs] + ["outputs.%s=true" % name for name in outputs]
-        self.work.run([self.work.program, "render", self.pile(seed), "--mission", mission, "--seed", seed, *words(settings),
+        self.work.run([self.work.program, "render", self.pile(seed, settings), "--mission", mission, "--seed", seed, *words(settings),
                        *words(outputs), "--out", folder / "run", "--quiet"], folder / "log.txt")

@@ -317,9 +317,40 @@ TEST(Run, RecordsSeveralFlightsOverOnePile) {
   EXPECT_IN("other.lua: seed: has another seed", seed.err);
   const Outcome pile = run_rubble(more + (scratch / "other.lua") + " --seed 5");
   EXPECT_EQ(pile.exit_code, 1);
-  EXPECT_IN("other.lua: pile: states another pile than", pile.err);
+  EXPECT_IN("other.lua: packs: states another pile than", pile.err);
   EXPECT_EQ(run_rubble(more + (scratch / "outside.lua")).exit_code, 1);
   EXPECT_FALSE(fs::exists(scratch / "none"));
+}
+
+// A pile that is kept is not what the mission may ask for.
+TEST(Render, SaysWhatOfItsMissionThePileHasNot) {
+  const ScratchFolder scratch;
+  write_file(scratch / "tiny.lua", kTinyMission);
+  ASSERT_EQ(run_rubble("settle " + (scratch / "tiny.lua") + " --set fines.amount=20 --set outputs.stl=false --out " + (scratch / "pile"))
+                .exit_code,
+            0);
+  const std::string small = " --set camera.width=32 --set camera.height=24 --quiet --out ";
+  const auto render = [&](const std::string& mission, const std::string& out) {
+    return run_rubble("render " + (scratch / "pile") + " --mission " + (scratch / mission) + small + (scratch / out));
+  };
+  const Outcome silent = render("tiny.lua --set fines.amount=20", "as_it_is");
+  EXPECT_EQ(silent.exit_code, 0) << silent.err;
+  EXPECT_EQ(silent.err.find("pile of the run"), std::string::npos) << silent.err;
+  // Its defaults are not asked for.
+  write_file(scratch / "none.lua", "return rubble.mission { trajectory = rubble.trajectory.orbit { radius_m = 8, speed = 70, rate_hz = 5 } }\n");
+  const Outcome none = render("none.lua", "none");
+  EXPECT_EQ(none.exit_code, 0) << none.err;
+  EXPECT_EQ(none.err.find("pile of the run"), std::string::npos) << none.err;
+  std::string other = kTinyMission;
+  write_file(scratch / "other.lua", other.insert(other.find("trajectory"), "fines = { amount = 7 }, "));
+  const Outcome warned = render("other.lua", "other");
+  EXPECT_EQ(warned.exit_code, 0) << warned.err;
+  EXPECT_IN("the pile of the run is kept, not the one that the mission states: fines.amount is 20 instead of 7", warned.err);
+  const Outcome refused = render("tiny.lua --set fines.amount=0", "refused");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_IN("--set fines.amount=0: changes nothing, because the pile of", refused.err);
+  EXPECT_IN("rubble settle MISSION --set fines.amount=0", refused.err);
+  EXPECT_FALSE(fs::exists(scratch / "refused"));
 }
 
 TEST(Render, RefusesADamagedOrForeignPile) {

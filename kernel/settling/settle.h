@@ -27,7 +27,7 @@ struct SettleOptions {
   // A pile with a deeper overlap is not settled; see PileState::deepest_overlap. unit: m
   double rest_overlap = 0.005;
   double layer_time_limit = 4.0;    // longest time between two layers; unit: s
-  double final_time_limit = 20.0;   // after the last layer; unit: s
+  double final_time_limit = 60.0;   // after the last layer; unit: s
   double lost_below = -0.5;         // a piece with a lower centre of mass has left the world; unit: m
   double lost_beyond = 100.0;       // so has a piece farther than this from the Z axis; unit: m
   int threads = 0;                  // 0: all processors; the result does not depend on it

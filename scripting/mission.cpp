@@ -5,6 +5,7 @@
 
 #include "kernel/base/hash.h"
 #include "scripting/sandbox/script_file.h"
+#include "scripting/scenario/idle_keys.h"
 #include "scripting/scenario/mission_form.h"
 
 namespace rubble {
@@ -115,10 +116,14 @@ Mission load_mission_text(const std::string& text, const std::string& path,
   MissionForm form;
   const Schema schema = make_scenario_schema(form);
   std::vector<Diagnostic> mistakes = sandbox.mistakes();
-  read_table(schema, table, mistakes);
+  StatedKeys stated;
+  read_table(schema, table, mistakes, &stated.in_script);
   const std::vector<std::string> words = mission_words();
-  for (const std::string& override_text : options.overrides)
-    if (!is_for_script(override_text, words)) apply_override(schema, override_text, mistakes);
+  for (const std::string& override_text : options.overrides) {
+    if (is_for_script(override_text, words)) continue;
+    apply_override(schema, override_text, mistakes);
+    stated.by_set.push_back(override_text.substr(0, override_text.find('=')));
+  }
   for (const auto& [override_text, hint] : sandbox.unused_overrides()) {
     std::vector<Diagnostic> unknown;
     apply_override(schema, override_text, unknown);
@@ -135,6 +140,8 @@ Mission load_mission_text(const std::string& text, const std::string& path,
   add_unrelated(find_mistakes(form), mistakes);
   locate(mistakes, path, lines);
   throw_if_any(std::move(mistakes));
+  mission.idle_keys = find_idle_keys(form, stated);
+  locate(mission.idle_keys, path, lines);
   mission.scenario = form.normalized();
   return mission;
 }
@@ -179,6 +186,7 @@ void check_materials(const Mission& mission, const std::vector<std::string>& nam
 std::vector<std::string> find_suspicious(const Mission& mission) {
   constexpr double kLargestInRadians = 3.2;  // pi; unit: rad
   std::vector<std::string> sentences;
+  for (const Diagnostic& idle : mission.idle_keys) sentences.push_back(idle.text());
   for (const MountedCamera& camera : mission.scenario.cameras) {
     const std::string key = camera.key() + ".fov_deg";
     if (camera.camera.fov_deg <= kLargestInRadians)

@@ -36,9 +36,10 @@ struct Mission {
   SourceMap lines;                                         // where each key was written
   std::vector<std::pair<std::string, std::string>> drawn;  // by rubble.random: LuaSandbox::drawn
   std::map<std::string, std::string> parameters{};         // that the script declared: LuaSandbox::parameters
+  std::vector<Diagnostic> idle_keys{};                     // that it or --set states in vain: find_idle_keys()
 };
 
-// What is allowed and hardly meant, each with file and line: an angle that looks like radians.
+// What is allowed and hardly meant, each with file and line: an angle that looks like radians, keys that nothing reads.
 std::vector<std::string> find_suspicious(const Mission& mission);
 
 // Throws InputError with every mistake in the script and in the overrides; a file that cannot be

@@ -129,7 +129,11 @@ ResolvedMission resolve_render(const RunRequest& request, const FinishedRun& sav
   mission.provenance = make_provenance(RunKind::render, loaded, mission_options(request));
   mission.provenance.assets = pile_from->assets;
   mission.provenance.pile_from = pile_from;
-  load_with_progress(mission, context, [&] { return load_assets_of(saved, request.asset_packs); });
+  load_with_progress(mission, context, [&] {
+    AssetLibrary assets = load_assets_of(saved, request.asset_packs);
+    for (std::string& warning : find_suspicious(loaded)) assets.warnings.push_back(std::move(warning));
+    return assets;
+  });
   add_robot_files(mission.scenario.robots, {std::filesystem::path(request.mission).parent_path().string()}, mission.assets);
   mission.provenance.robots = mission.assets.robots;
   return mission;

@@ -185,11 +185,13 @@ std::optional<Diagnostic> write_slot(const Key& key, const Slot& slot, const Val
 // The mistakes of what the members hold now: ranges and finiteness of every key.
 std::vector<Diagnostic> check_ranges(const Schema& schema);
 
-// Fills the members from a table. Adds every mistake; keys come as paths, without file and line.
-void read_table(const Schema& schema, const Value& table, std::vector<Diagnostic>& mistakes);
+// Fills the members from a table. Adds every mistake; keys come as paths, without file and line. written: the paths of all keys
+// that the table has are added.
+void read_table(const Schema& schema, const Value& table, std::vector<Diagnostic>& mistakes,
+                std::vector<std::string>* written = nullptr);
 
 // Applies "pile.layers=3" or "numlayers=3" (an item of a list: "trajectory.waypoints[2].t=4"; a
-// component: "light.position.z=9"; a vector: "1,2,3"). Mistakes name "--set" as their file.
+// component: "light.position.z=9"; a vector: "1,2,3", "{1, 2, 3}"). Mistakes name "--set" as their file.
 void apply_override(const Schema& schema, const std::string& text,
                     std::vector<Diagnostic>& mistakes);
 

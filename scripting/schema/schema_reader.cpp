@@ -1,9 +1,9 @@
 // From a user's table, or a --set argument, to the members that a schema binds.
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 
+#include "kernel/base/tables/text_table.h"
 #include "kernel/base/text.h"
+#include "scripting/schema/override_text.h"
 #include "scripting/schema/schema.h"
 
 namespace rubble {
@@ -145,8 +145,8 @@ const Alias* find_alias(const Schema& schema, const std::string& name) {
 
 class TableReader {
  public:
-  TableReader(const Schema& schema, std::vector<Diagnostic>& mistakes)
-      : schema_(schema), mistakes_(mistakes) {}
+  TableReader(const Schema& schema, std::vector<Diagnostic>& mistakes, std::vector<std::string>& written)
+      : schema_(schema), mistakes_(mistakes), written_(written) {}
 
   void read_group(const std::string& pattern, const std::string& shown, std::size_t index,
                   const Value& table) {
@@ -220,7 +220,7 @@ class TableReader {
       const std::string item = shown + "[" + std::to_string(i + 1) + "]";
       const Schema schema = tables.make_item(i);
       if (value.items[i].kind == Value::Kind::table)
-        TableReader(schema, mistakes_).read_group("", item, 0, value.items[i]);
+        TableReader(schema, mistakes_, written_).read_group("", item, 0, value.items[i]);
       else
         mistakes_.push_back({"", 0, item, "wrong type", "a table", describe(value.items[i]), ""});
     }
@@ -242,7 +242,7 @@ class TableReader {
       const std::string item = joined(shown, names[i]);
       const Schema schema = tables.make_item(i);
       if (table.kind == Value::Kind::table)
-        TableReader(schema, mistakes_).read_group("", item, 0, table);
+        TableReader(schema, mistakes_, written_).read_group("", item, 0, table);
       else
         mistakes_.push_back({"", 0, item, "wrong type", "a table", describe(table), ""});
     }
@@ -280,54 +280,8 @@ class TableReader {
 
   const Schema& schema_;
   std::vector<Diagnostic>& mistakes_;
-  std::vector<std::string> written_;
+  std::vector<std::string>& written_;
 };
-
-std::string trimmed(const std::string& text) {
-  const auto is_space = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
-  const auto begin = std::find_if_not(text.begin(), text.end(), is_space);
-  const auto end = std::find_if_not(text.rbegin(), std::make_reverse_iterator(begin), is_space);
-  return std::string(begin, end.base());
-}
-
-// An integer, a number, true or false, otherwise a string.
-Value parse_word(const std::string& word) {
-  const char* const end = word.data() + word.size();
-  std::int64_t integer = 0;
-  auto result = std::from_chars(word.data(), end, integer);
-  if (result.ec == std::errc() && result.ptr == end) return Value::make_integer(integer);
-  double number = 0;
-  result = std::from_chars(word.data(), end, number);
-  if (result.ec == std::errc() && result.ptr == end) return Value::make_number(number);
-  if (word == "true" || word == "false") return Value::make_boolean(word == "true");
-  return Value::make_text(word);
-}
-
-Value parse_list(std::string text, bool words_are_text) {
-  if (text.size() > 1 && text.front() == '{' && text.back() == '}')
-    text = text.substr(1, text.size() - 2);
-  Value list = Value::make_table();
-  if (trimmed(text).empty()) return list;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', begin), text.size());
-    const std::string word = trimmed(text.substr(begin, comma - begin));
-    list.items.push_back(words_are_text ? Value::make_text(word) : parse_word(word));
-    begin = comma + 1;
-  }
-  return list;
-}
-
-// What a --set text means depends on the key: "7" is a fine name for an asset.
-Value parse_for(const Slot& slot, const std::string& text) {
-  if (std::holds_alternative<std::string*>(slot) || std::holds_alternative<Choice>(slot) ||
-      std::holds_alternative<std::optional<std::string>*>(slot))
-    return Value::make_text(text);
-  if (std::holds_alternative<std::vector<std::string>*>(slot) ||
-      std::holds_alternative<StringOrList>(slot))
-    return parse_list(text, true);
-  if (text.find_first_of(",{") != std::string::npos) return parse_list(text, false);
-  return parse_word(text);
-}
 
 // For a name that is right up to the index of a list's item, or that means more than one value.
 std::optional<Diagnostic> half_known_override(const Schema& schema, const std::string& name) {
@@ -364,8 +318,9 @@ Diagnostic unknown_override(const Schema& schema, const std::string& name) {
 
 }  // namespace
 
-void read_table(const Schema& schema, const Value& table, std::vector<Diagnostic>& mistakes) {
-  TableReader(schema, mistakes).read_group("", "", 0, table);
+void read_table(const Schema& schema, const Value& table, std::vector<Diagnostic>& mistakes, std::vector<std::string>* written) {
+  std::vector<std::string> paths;
+  TableReader(schema, mistakes, written ? *written : paths).read_group("", "", 0, table);
 }
 
 void apply_override(const Schema& schema, const std::string& text,
@@ -377,14 +332,14 @@ void apply_override(const Schema& schema, const std::string& text,
   } else if (equals == std::string::npos || equals == 0) {
     mistake = {"", 0, "", "not an assignment", "KEY=VALUE", "\"" + text + "\"", ""};
   } else {
-    const std::string name = trimmed(text.substr(0, equals));
+    const std::string name(trimmed(std::string_view(text).substr(0, equals)));
     const Alias* alias = find_alias(schema, name);
     const std::optional<Target> target =
         alias ? alias_target(schema, *alias) : find_target(schema, name);
     if (!target) {
       mistake = unknown_override(schema, name);
     } else {
-      const Value value = parse_for(target->slot, trimmed(text.substr(equals + 1)));
+      const Value value = parse_override(target->slot, std::string(trimmed(std::string_view(text).substr(equals + 1))));
       const auto failed = write_slot(target->key, target->slot, value, name);
       if (!failed) return;
       mistake = *failed;

@@ -16,7 +16,7 @@ return rubble.mission {
     },
   },
   robot_run = { duration = 6 },
-  light = { type = "sun", intensity = 0.05 },
+  light = { type = "sun" },
   lamp = { on = true },
   camera = { width = 320, height = 240, fov_deg = 90 },
   imu = { on = true },

@@ -17,7 +17,7 @@ return rubble.mission {
     },
   },
   robot_run = { duration = 4 },
-  light = { type = "sun", intensity = 0.2 },
+  light = { type = "sun" },
   lamp = { on = true, intensity_cd = 30 },
   cameras = {
     overview = { width = 320, height = 240, fov_deg = 90 },

@@ -35,7 +35,7 @@ function structures.curtain() return rubble.collapse.curtain { length = 5, store
 local lamp = { on = true, intensity_cd = 60 }
 local conditions = {
   clear = { light = { type = "sun", elevation_deg = 40, azimuth_deg = 30 } },
-  dark = { light = { type = "sun", intensity = 0.02 }, lamp = lamp },
+  dark = { light = { type = "sun", elevation_deg = -18 }, lamp = lamp },
   smoke = {
     light = { type = "sun", elevation_deg = 25 }, lamp = lamp,
     air = { fog_density = 0.2, fog_intensity = 0.8 },

@@ -99,5 +99,32 @@ TEST(MissionForm, WarnsOfAnyCameraInRadians) {
   EXPECT_NE(of_two[0].find("cameras.b.fov_deg"), std::string::npos) << of_two[0];
 }
 
+std::string sentences_of(const std::string& text, const std::vector<std::string>& settings = {}) {
+  std::string sentences;
+  for (const Diagnostic& idle : load_text("return rubble.mission {\n" + text + "\n}", with_overrides(settings)).idle_keys)
+    sentences += idle.text() + "\n";
+  return sentences;
+}
+
+TEST(MissionForm, SaysWhichKeysNothingReads) {
+  EXPECT_EQ(sentences_of("light = { type = \"sun\", intensity = 30 }"),
+            "m.lua:2: light.intensity: has no effect, because the sun has the illuminance of its elevation and sky\n");
+  EXPECT_EQ(sentences_of("light = { type = \"sun\", elevation_deg = 30 }"), "");
+  EXPECT_EQ(sentences_of("event_camera = { threshold_up = 0.3 }"),
+            "m.lua:2: event_camera.threshold_up: has no effect, because event_camera.on is false\n");
+  EXPECT_EQ(sentences_of("cameras = { left = {\nexposure = { mode = \"fixed\", delay = 2, time = 0.01 } } }"),
+            "m.lua:3: cameras.left.exposure.delay: has no effect, because cameras.left.exposure.mode is \"fixed\"\n");
+  EXPECT_EQ(sentences_of("pile = { building = { storeys = 1, kind = \"masonry\", wall = 0.3, slab = 0.2 } }"),
+            "m.lua:2: pile.building.slab: has no effect, because masonry has walls and timber floors\n");
+  // What is switched off on purpose may say what it likes; --set may not.
+  const std::string off = "lamp = { on = false, intensity_cd = 200 }";
+  EXPECT_EQ(sentences_of(off), "");
+  EXPECT_EQ(sentences_of(off, {"lamp.cone_deg=40"}), "--set: lamp.cone_deg: has no effect, because lamp.on is false\n");
+  EXPECT_EQ(sentences_of(off, {"lamp.cone_deg=40", "lamp.on=true"}), "");
+  EXPECT_EQ(sentences_of("lamp = { intensity_cd = 200 }", {"lamp.on=false"}), "");
+  EXPECT_EQ(sentences_of("lights = { { type = \"point\", cone_deg = 20 } }"),
+            "m.lua:2: lights[1].cone_deg: has no effect, because lights[1].type is \"point\"\n");
+}
+
 }  // namespace mission_form_test
 }  // namespace rubble

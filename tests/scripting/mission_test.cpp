@@ -228,6 +228,20 @@ TEST(MissionOverrides, AreParsedByTheKeysType) {
   EXPECT_EQ(s.seed, 12u);
 }
 
+// A shell hands on the quotation marks of {"concrete"}.
+TEST(MissionOverrides, WordsMayHaveQuotationMarks) {
+  const auto set = [](const std::vector<std::string>& settings) {
+    return load_text("return rubble.mission { seed = 1 }", with_overrides(settings)).scenario;
+  };
+  const std::vector<std::string> two{"a, b", "c"};
+  EXPECT_EQ(set({"packs={\"a, b\", 'c'}"}).packs, two);
+  EXPECT_EQ(set({"packs='a, b',c"}).packs, two);
+  EXPECT_EQ(set({"packs={it's, 5\"}"}).packs, (std::vector<std::string>{"it's", "5\""}));
+  EXPECT_EQ(set({"light.type=\"spot\""}).lights[0].spec.type, LightType::spot);
+  EXPECT_EQ(set({"camera.topic='/front'"}).cameras[0].topic(), "/front");
+  EXPECT_THROW(set({"pile.layers=\"3\""}), InputError);
+}
+
 TEST(MissionOverrides, MistakesNameSet) {
   EXPECT_EQ(
       mission_error("return rubble.mission { seed = 1 }",

@@ -28,6 +28,27 @@ TEST(Scripts, AllLoadAndSample) {
   }
 }
 
+TEST(Scripts, StateNothingInVain) {
+  for (const std::string& name : bundled_scripts()) {
+    const Mission mission = load_mission(std::string(kScripts) + "/" + name);
+    for (const Diagnostic& idle : mission.idle_keys) ADD_FAILURE() << idle.text();
+  }
+}
+
+// "Lamp alone": the sun has its own strength, whatever else a mission states.
+TEST(Scripts, WhatIsCalledDarkIsNight) {
+  int dark = 0;
+  for (const std::string& name : bundled_scripts()) {
+    if (name.find("rubble50") == std::string::npos || name.find("_dark_") == std::string::npos) continue;
+    const Scenario s = load(name).scenario;
+    EXPECT_EQ(s.lights[0].spec.type, LightType::sun) << name;
+    EXPECT_LE(resolve_light(s).elevation_deg, -18) << name;
+    EXPECT_TRUE(s.lamp.on) << name;
+    ++dark;
+  }
+  EXPECT_EQ(dark, 10);
+}
+
 TEST(Scripts, TheFirstPileIsLargeEnough) {
   const Scenario s = load("first_pile.lua").scenario;
   EXPECT_GE(s.pile.layers * s.pile.pieces_per_layer, 1200);

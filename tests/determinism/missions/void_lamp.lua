@@ -2,7 +2,7 @@
 return rubble.mission {
   seed = 7,
   pile = rubble.collapse.lean_to {},
-  light = { type = "sun", intensity = 0.02 },
+  light = { type = "sun" },
   lamp = { on = true },
   air = { fog_density = 0.15, fog_noise = 0.7, wind = { 0.3, 0.1, 0 } },
   imu = { on = true },

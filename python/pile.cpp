@@ -9,6 +9,7 @@
 #include "app/mission/finished_run.h"
 #include "app/pipeline/stages.h"
 #include "app/scene/build_scene.h"
+#include "app/support/print.h"
 #include "kernel/base/parallel.h"
 #include "kernel/base/system/file_sandbox.h"
 #include "kernel/geometry/fine_shapes.h"
@@ -221,7 +222,7 @@ std::string check_mission(const nb::object& script, const nb::object& seed, cons
   options.overrides = to_overrides(overrides, "overrides");
   if (!seed.is_none()) options.seed = to_mission_seed(seed);
   const Mission mission = load_mission(to_path(script, "script"), options);
-  load_assets(mission, {});
+  print_warnings(load_assets(mission, {}).warnings);
   return scenario_to_json(mission.scenario);
 }
 

@@ -97,6 +97,7 @@ class Batch {
       varied.overrides.insert(varied.overrides.end(), values.begin(), values.end());
       const Mission mission = load_mission(request_.of.mission, varied);
       const AssetLibrary assets = load_assets(mission, request_.of.asset_packs);
+      print_warnings(assets.warnings);
       estimate_ = std::max(estimate_, estimate_bytes(mission.scenario, assets, request_.pile_only));
       if (request_.of.preview) {
         const RunKind kind = request_.pile_only ? RunKind::settle : RunKind::run;

@@ -108,8 +108,7 @@ ExitCode check_mission(const CheckRequest& check) {
   const Mission mission = load_mission(request.mission, mission_options(request));
   for (const std::string& line : mission.printed) print_err("%s\n", line.c_str());
   const AssetLibrary assets = load_assets(mission, request.asset_packs);
-  for (const std::string& warning : assets.warnings)
-    print_err("warning: %s\n", warning.c_str());
+  print_warnings(assets.warnings);
   if (check.robots)
     print_robots(request.mission, mission, assets);
   else

@@ -68,7 +68,7 @@ BuiltScene build_model(const FolderRequest& request, const FinishedRun& saved, c
   pile = load_pile_of(saved, mission.assets);
   const std::vector<MissionRobot> robots = with_lines_of_script(mission, [&] { return make_robots(mission, context); });
   built = build_sim_scene(mission, pile, robots, dynamic, context.threads());
-  for (const std::string& warning : context.warnings) print_err("warning: %s\n", warning.c_str());
+  print_warnings(context.warnings);
   return built;
 }
 

@@ -45,8 +45,7 @@ template <typename Load>
 void load_with_progress(ResolvedMission& mission, RunContext& context, const Load& load) {
   context.progress.start("assets");
   mission.assets = load();
-  for (const std::string& warning : mission.assets.warnings)
-    print_err("warning: %s\n", warning.c_str());
+  print_warnings(mission.assets.warnings);
   context.progress.finish(std::to_string(mission.assets.types.size()) + " loaded, seed " +
                           std::to_string(mission.scenario.seed));
 }

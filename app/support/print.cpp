@@ -3,6 +3,8 @@
 #include <cstdarg>
 #include <cstdint>
 #include <cstdio>
+#include <mutex>
+#include <set>
 
 #include "kernel/base/text.h"
 
@@ -54,6 +56,15 @@ void print_err(const char* format, ...) {
   va_start(arguments, format);
   put(stderr, printable(format_text(format, arguments)));
   va_end(arguments);
+}
+
+void print_warnings(const std::vector<std::string>& sentences) {
+  static std::mutex mutex;
+  static std::set<std::string> printed;
+  const std::lock_guard<std::mutex> lock(mutex);
+  for (const std::string& sentence : sentences) {
+    if (printed.insert(sentence).second) print_err("warning: %s\n", sentence.c_str());
+  }
 }
 
 void print_json(const std::string& json) { put(stdout, printable(escape_json_controls(json))); }

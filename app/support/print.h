@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace rubble {
 
@@ -10,6 +11,9 @@ namespace rubble {
 __attribute__((format(printf, 1, 2))) void print_out(const char* format, ...);
 // As printf, to standard error: progress, warnings, errors.
 __attribute__((format(printf, 1, 2))) void print_err(const char* format, ...);
+// "warning: " and a sentence, to standard error; each sentence once in a process, which may read one mission for many seeds.
+// Any thread may call it.
+void print_warnings(const std::vector<std::string>& sentences);
 // JSON to standard output, where \x1b would be no JSON: \u001b.
 void print_json(const std::string& json);
 // A result in one of its two forms.

@@ -205,6 +205,15 @@ TEST_F(Batch, AsksForRoomForEveryOutputAndEveryPath) {
   EXPECT_IN("the disk is too small for this batch", into.err);
 }
 
+TEST_F(Batch, SaysOnceThatWhatItVariesHasNoEffect) {
+  const std::string varied = batch("varied", "1", "--preview --vary light.cone_deg=20,40 --set light.type=point");
+  const Outcome preview = run_rubble(varied);
+  EXPECT_EQ(preview.exit_code, 0) << preview.err;
+  const std::string sentence = "warning: --set: light.cone_deg: has no effect";
+  EXPECT_IN(sentence, preview.err);
+  EXPECT_EQ(preview.err.find(sentence), preview.err.rfind(sentence)) << preview.err;
+}
+
 TEST_F(Batch, RefusesSeedsAndShardsThatAreNone) {
   for (const char* seeds : {"5..1", "1..", "a", "1,,2", "''", "-1", "99999999999999999999"})
     EXPECT_EQ(run_rubble(batch("a", seeds)).exit_code, 1) << seeds;

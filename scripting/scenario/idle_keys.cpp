@@ -157,6 +157,7 @@ std::vector<IdleKey> list_idle_keys(const MissionForm& form) {
   IdleKeys("imu.", keys).off(!form.imu_on, "on", "false");
   IdleKeys("record_settling.", keys).off(!s.record_settling.on, "on", "false");
   IdleKeys("voids.", keys).off(!s.voids.on, "on", "false");
+  IdleKeys("robot_run.", keys).against(s.robots.empty(), "the mission has no robots", {"duration", "control_hz", "debris", "live_light"});
   IdleKeys("outputs.", keys).off(!s.outputs.rawlog, "rawlog", "false", {"rawlog_format"});
   return keys;
 }

@@ -25,8 +25,8 @@ local placed = {
   { asset = "wall_stub", position = { 0.0, -1.3, 0.7 } },
   { asset = "wall_stub", position = { 3.05, -1.28, 0.7 }, rpy_deg = { 3, 0, -1 } },
   { asset = "wall_stub", position = { 4.75, 0.3, 0.7 }, rpy_deg = { 0, 0, 90 } },
-  { asset = "floor_slab", position = { -2.15, -0.12, 0.68 }, rpy_deg = { -27.3, 0, 1 } },
-  { asset = "floor_slab", position = { 2.1, -0.08, 0.69 }, rpy_deg = { -26.8, 0.5, -1 } },
+  { asset = "floor_slab", position = { -2.15, -0.12, 0.68 }, rpy_deg = { -27.3, 0, 1 }, built_in = true },
+  { asset = "floor_slab", position = { 2.1, -0.08, 0.69 }, rpy_deg = { -26.8, 0.5, -1 }, built_in = true },
 }
 -- What lay in the room already: it settles before the first layer comes.
 local lying = { "chunk_4", "brick", "cinder_block", "chunk_6", "half_brick", "worn_brick", "chunk_1" }
@@ -34,7 +34,7 @@ local random = rubble.random("room")
 for i = 0, 10 do
   placed[#placed + 1] = {
     asset = lying[i % #lying + 1], fixed = false,
-    position = { -2.6 + 0.6 * i, i % 2 == 0 and 0.25 or -0.95, 0.3 },
+    position = { -2.6 + 0.6 * i, i % 2 == 0 and -0.15 or -0.9, 0.3 },
     rpy_deg = { random:uniform(-60, 60), random:uniform(-60, 60), random:uniform(0, 360) },
   }
 end

@@ -48,9 +48,11 @@ void note_placed_overlaps(const ResolvedMission& mission, const Pile& pile, RunC
     return "pile.placed[" + std::to_string(i + 1) + "] (" + pile.types[std::size_t(placement.kind.index)].name +
            (placement.fixed ? ", fixed)" : ")");
   };
+  const auto is_built_in = [&](int i) { return std::size_t(i) < own && mission.scenario.pile.placed[std::size_t(i)].built_in; };
   std::size_t told = 0, fixed = 0;
   for (const PlacedOverlap& overlap : find_placed_overlaps(pile.types, placed, own, kNotedPlacedOverlap)) {
     const bool both_fixed = placed[std::size_t(overlap.a)].fixed && placed[std::size_t(overlap.b)].fixed;
+    if (both_fixed && (is_built_in(overlap.a) || is_built_in(overlap.b))) continue;
     if (both_fixed ? fixed++ > 0 : told++ >= kNotedOverlaps) continue;
     char depth[32];
     std::snprintf(depth, sizeof depth, "%.0f mm", overlap.depth * 1000);

@@ -79,6 +79,7 @@ void add_camera(const std::string& at, const CameraScenario& camera, std::vector
   const ExposureMode mode = camera.exposure.mode;
   const ImageSensorSpec& sensor = camera.sensor;
   k.off(camera.colour.quality != RenderQuality::reference, "quality", "not \"reference\"", {"samples", "denoise"});
+  k.against(camera.lens.fx.has_value(), at + "lens.fx gives the focal length", {"fov_deg"});
   k.off(!camera.shutter.motion_blur, "shutter.motion_blur", "false", {"shutter.most_samples"});
   k.off(mode == ExposureMode::ideal, "exposure.mode", "\"ideal\"", {"exposure", "sensor"});
   k.against(mode == ExposureMode::automatic, "it is automatic", {"exposure.time"});
@@ -115,6 +116,14 @@ void add_cameras(const MissionForm& form, std::vector<IdleKey>& keys) {
   }
 }
 
+void add_placed(const std::vector<PlacedItem>& placed, std::vector<IdleKey>& keys) {
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    IdleKeys k("pile.placed[" + std::to_string(i + 1) + "].", keys);
+    k.against(!placed[i].box.has_value(), "the piece is no box", {"material", "broken"});
+    k.against(!placed[i].fixed, "the piece is not fixed", {"built_in"});
+  }
+}
+
 void add_building(const BuildingSpec& b, std::vector<IdleKey>& keys) {
   IdleKeys k("pile.building.", keys);
   k.off(!b.given(), "storeys", "0");
@@ -146,6 +155,9 @@ void add_building(const BuildingSpec& b, std::vector<IdleKey>& keys) {
 std::vector<IdleKey> list_idle_keys(const MissionForm& form) {
   const Scenario& s = form.rest;
   std::vector<IdleKey> keys;
+  IdleKeys("pile.", keys).off(s.pile.layers == 0, "layers", "0",
+                              {"pieces_per_layer", "spawn_position", "spawn_bounds", "spawn_density"});
+  add_placed(s.pile.placed, keys);
   add_building(s.pile.building, keys);
   IdleKeys("victims.", keys).off(s.victims.count == 0, "count", "0");
   IdleKeys("fines.", keys).off(s.fines.amount == 0, "amount", "0");
@@ -158,7 +170,9 @@ std::vector<IdleKey> list_idle_keys(const MissionForm& form) {
   IdleKeys("record_settling.", keys).off(!s.record_settling.on, "on", "false");
   IdleKeys("voids.", keys).off(!s.voids.on, "on", "false");
   IdleKeys("robot_run.", keys).against(s.robots.empty(), "the mission has no robots", {"duration", "control_hz", "debris", "live_light"});
-  IdleKeys("outputs.", keys).off(!s.outputs.rawlog, "rawlog", "false", {"rawlog_format"});
+  IdleKeys outputs("outputs.", keys);
+  outputs.off(!s.outputs.rawlog, "rawlog", "false", {"rawlog_format"});
+  outputs.against(!s.outputs.bag && !s.outputs.mcap, "there is neither a bag nor an MCAP file", {"depth", "pictures", "vectors"});
   return keys;
 }
 

@@ -78,6 +78,8 @@ void add_pile(Schema& k, PileScenario& p) {
   k.item("pile.placed[].scale", p.placed, &PlacedItem::scale, "Size of the piece relative to the asset.").between(0.01, 100);
   k.item("pile.placed[].fixed", p.placed, &PlacedItem::fixed,
          "true: immovable, like a wall; false: it settles with the other pieces.");
+  k.item("pile.placed[].built_in", p.placed, &PlacedItem::built_in,
+         "The fixed piece reaches into other fixed pieces on purpose, like a slab into its wall: no warning says so.");
 }
 
 void add_terrain(Schema& k, TerrainScenario& t) {

@@ -53,6 +53,7 @@ struct PlacedItem {
   std::optional<Vec3> box{};  // full edge lengths; unit: m; range: 0.02 to 100; its origin is its middle
   std::string material = "reinforced_concrete";  // of a box
   std::vector<std::string> broken{};  // of a box, the faces that broke off: "+x", "-x", "+y", ...
+  bool built_in = false;  // reaches into other fixed pieces on purpose; changes no result
 };
 
 // An asset that stands on every floor of a building before the collapse.

@@ -98,6 +98,17 @@ TEST(Run, SaysWhatLeftTheWorldAndWhatOverlapsFromTheStart) {
   EXPECT_TRUE(fs::exists(scratch / "a/pile.bin")) << "what was computed is kept";
 }
 
+// Whoever places a mode did not place its pieces.
+TEST(Run, ModesOfCollapseWarnOfNothing) {
+  const ScratchFolder scratch;
+  for (const char* mode : {"lean_to", "cantilever", "v_shape", "a_frame", "pancake", "inclined", "lean_over", "curtain", "culvert"}) {
+    write_file(scratch / "mode.lua", std::string("return rubble.mission { seed = 4, pile = rubble.collapse.") + mode + " {} }\n");
+    const Outcome run = run_rubble("settle " + (scratch / "mode.lua") + " --quiet --set outputs.stl=false --out " + (scratch / mode));
+    EXPECT_EQ(run.exit_code, 0) << mode << run.err;
+    EXPECT_EQ(run.err.find("warning"), std::string::npos) << mode << run.err;
+  }
+}
+
 // A bundled script, made small: what users copy from must work.
 void run_script(const fs::path& path) {
   const ScratchFolder scratch;

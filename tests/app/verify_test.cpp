@@ -317,7 +317,7 @@ TEST(Run, RecordsSeveralFlightsOverOnePile) {
   EXPECT_IN("other.lua: seed: has another seed", seed.err);
   const Outcome pile = run_rubble(more + (scratch / "other.lua") + " --seed 5");
   EXPECT_EQ(pile.exit_code, 1);
-  EXPECT_IN("other.lua: packs: states another pile than", pile.err);
+  EXPECT_IN("other.lua: pile.spawn_position[3]: states another pile than", pile.err);
   EXPECT_EQ(run_rubble(more + (scratch / "outside.lua")).exit_code, 1);
   EXPECT_FALSE(fs::exists(scratch / "none"));
 }

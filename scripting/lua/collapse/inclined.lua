@@ -21,7 +21,8 @@ return function(given)
   local clear, placed = o.length - o.bearing, {}
   local first = math.rad(o.dip_deg)
   local foot_x, foot_z = clear * math.cos(first), 0
-  local toe = foot_x + 0.004
+  -- The lower wall, clear of the floors' upper edges there: the steepest reaches farthest.
+  local toe = foot_x + o.thickness * math.sin(math.rad(o.dip_deg + o.spread_deg)) + 0.004
   local back, top = -o.bearing - 0.1, 0  -- the upper wall, clear of the floors' ends
   for k = 0, o.storeys - 1 do
     local angle = math.rad(o.dip_deg + k * step)

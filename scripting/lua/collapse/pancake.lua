@@ -20,7 +20,9 @@ return function(given)
   local random, placed = rubble.random(o.stream), {}
   local slope = math.tan(math.rad(o.tilt_deg))
   local reach = 0.36 * o.length
-  if slope * reach > 0.8 * o.gap then
+  -- What two floors that slope against each other come together by at their ends; the lowest lies over level ground.
+  local closing = o.storeys > 1 and slope * (1 + o.shift) * o.length or slope * o.length / 2
+  if closing > o.gap then
     rubble.reject(name, "tilt_deg", "a slope that leaves the lower side open", o.tilt_deg)
     slope = 0
   end
@@ -38,7 +40,8 @@ return function(given)
         local px = reach * (2 * (i - 1) / (o.supports - 1) - 1)
         local py = 0.36 * o.width * (2 * (j - 1) / (o.supports - 1) - 1) + random:uniform(-0.1, 0.1)
         local floor = bottom + below * (px - x_before)
-        local height = bottom + o.gap + tilt * (px - x) - floor
+        -- Up to the floor above its lower edge: the two floors are not parallel.
+        local height = bottom + o.gap + tilt * (px - x) - floor - side / 2 * math.abs(tilt - below)
         placed[#placed + 1] = {
           box = { side, side, height }, position = { px, py, floor + height / 2 + 0.002 },
           rpy_deg = { 0, -math.deg(math.atan(below)), 0 }, broken = { "+x", "-x" }, fixed = false,

@@ -81,17 +81,19 @@ Pile vary(const Pile& pile, const nb::object& given) {
   const auto load = [&base](const std::vector<std::string>& more) {
     Provenance changed = base.provenance;
     changed.overrides.insert(changed.overrides.end(), more.begin(), more.end());
-    return load_mission(changed).scenario;
+    return load_mission(changed);
   };
-  const Scenario changed = load(overrides);
+  const Mission mission = load(overrides);
+  const Scenario& changed = mission.scenario;
   if (!settles_alike(base.scenario, changed)) {
     for (const std::string& one : overrides)
-      if (!settles_alike(base.scenario, load({one})))
+      if (!settles_alike(base.scenario, load({one}).scenario))
         throw InputError({"", 0, one.substr(0, one.find('=')), "this key changes how the pile settled",
                           "keys of light, air, cameras, sensors or robots", one, "settle the mission with this key anew"});
     throw InputError({"", 0, "overrides", "these keys change how the pile settled",
                       "keys of light, air, cameras, sensors or robots", "", "settle the mission with them anew"});
   }
+  print_warnings(find_suspicious(mission));
   auto varied = std::make_shared<SettledMission>(*pile.settled);
   varied->mission.scenario = changed;
   varied->mission.provenance.overrides.insert(varied->mission.provenance.overrides.end(), overrides.begin(), overrides.end());

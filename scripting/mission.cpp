@@ -7,6 +7,7 @@
 #include "scripting/sandbox/script_file.h"
 #include "scripting/scenario/idle_keys.h"
 #include "scripting/scenario/mission_form.h"
+#include "scripting/schema/override_text.h"
 
 namespace rubble {
 namespace {
@@ -122,7 +123,7 @@ Mission load_mission_text(const std::string& text, const std::string& path,
   for (const std::string& override_text : options.overrides) {
     if (is_for_script(override_text, words)) continue;
     apply_override(schema, override_text, mistakes);
-    stated.by_set.push_back(override_text.substr(0, override_text.find('=')));
+    stated.by_set.push_back(override_path(schema, override_text));
   }
   for (const auto& [override_text, hint] : sandbox.unused_overrides()) {
     std::vector<Diagnostic> unknown;

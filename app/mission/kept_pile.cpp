@@ -1,21 +1,27 @@
 #include "app/mission/kept_pile.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "app/provenance/compare.h"
 #include "kernel/base/error.h"
+#include "scripting/scenario/mission_form.h"
+#include "scripting/schema/override_text.h"
 
 namespace rubble {
 namespace {
 
 constexpr std::size_t kNamed = 4;  // keys that the warning names
 
-// Whether one of two keys is the other, or a part of it: "pile.mix" and "pile.mix[1].weight".
-bool overlap(const std::string& a, const std::string& b) {
-  const std::size_t n = std::min(a.size(), b.size());
-  if (a.compare(0, n, b, 0, n) != 0) return false;
-  const std::string& longer = a.size() > n ? a : b;
-  return longer.size() == n || longer[n] == '.' || longer[n] == '[';
+bool overlap(const std::string& a, const std::string& b) { return is_within(a, b) || is_within(b, a); }
+
+// What each override sets, by its whole path, and what was written.
+std::vector<std::pair<std::string, std::string>> list_set(const std::vector<std::string>& overrides) {
+  MissionForm form;
+  const Schema schema = make_scenario_schema(form);
+  std::vector<std::pair<std::string, std::string>> set;
+  for (const std::string& text : overrides) set.emplace_back(override_path(schema, text), text);
+  return set;
 }
 
 void refuse(const std::string& override_text, const Difference& difference, const std::string& run) {
@@ -29,10 +35,11 @@ void refuse(const std::string& override_text, const Difference& difference, cons
 std::string describe_kept_pile(const Scenario& stated, const Scenario& kept, const std::vector<std::string>& overrides,
                                const std::string& run) {
   const std::vector<Difference> differences = list_differences(kept, stated), of_defaults = list_differences(Scenario{}, stated);
+  const std::vector<std::pair<std::string, std::string>> set = list_set(overrides);
   std::vector<const Difference*> in_vain;
   for (const Difference& d : differences) {
-    for (const std::string& text : overrides) {
-      if (overlap(text.substr(0, text.find('=')), d.path)) refuse(text, d, run);
+    for (const auto& [path, text] : set) {
+      if (overlap(path, d.path)) refuse(text, d, run);
     }
     const auto touches = [&d](const Difference& other) { return overlap(other.path, d.path); };
     if (std::any_of(of_defaults.begin(), of_defaults.end(), touches)) in_vain.push_back(&d);

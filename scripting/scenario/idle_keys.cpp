@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "scripting/schema/override_text.h"
+
 namespace rubble {
 namespace {
 
@@ -65,8 +67,9 @@ void add_more_lights(const std::vector<LightScenario>& lights, std::vector<IdleK
 
 void add_air(const AirSpec& air, const LampSpec& lamp, std::vector<IdleKey>& keys) {
   IdleKeys k("air.", keys);
-  k.off(air.fog_density <= 0, "fog_density", "0", {"fog_asymmetry", "fog_height", "fog_noise", "fog_noise_size"});
-  k.off(air.fog_density > 0 && air.fog_noise <= 0, "fog_noise", "0", {"fog_noise_size"});
+  k.off(air.fog_density <= 0, "fog_density", "0", {"fog_asymmetry", "fog_height"});
+  k.off(air.fog_density <= 0 && air.dust.period <= 0, "fog_density", "0, and there is no dust", {"fog_noise", "fog_noise_size"});
+  k.off(air.fog_noise <= 0, "fog_noise", "0", {"fog_noise_size"});
   IdleKeys("air.dust.", keys).off(air.dust.period <= 0, "period", "0");
   IdleKeys l("lamp.", keys);
   l.off(!lamp.on, "on", "false");
@@ -89,7 +92,6 @@ void add_camera(const std::string& at, const CameraScenario& camera, std::vector
   k.against(sensor.response != Response::gamma, at + "sensor.response is not \"gamma\"", {"sensor.gamma"});
   k.off(sensor.hot_pixels <= 0, "sensor.hot_pixels", "0", {"sensor.hot_current"});
   k.off(!sensor.noise, "sensor.noise", "false", {"sensor.read_noise"});
-  k.off(camera.optics.focus_distance <= 0, "optics.focus_distance", "0", {"optics.focal_length"});
 }
 
 // at: as above, without "camera.".
@@ -170,15 +172,8 @@ std::vector<IdleKey> list_idle_keys(const MissionForm& form) {
   IdleKeys("record_settling.", keys).off(!s.record_settling.on, "on", "false");
   IdleKeys("voids.", keys).off(!s.voids.on, "on", "false");
   IdleKeys("robot_run.", keys).against(s.robots.empty(), "the mission has no robots", {"duration", "control_hz", "debris", "live_light"});
-  IdleKeys outputs("outputs.", keys);
-  outputs.off(!s.outputs.rawlog, "rawlog", "false", {"rawlog_format"});
-  outputs.against(!s.outputs.bag && !s.outputs.mcap, "there is neither a bag nor an MCAP file", {"depth", "pictures", "vectors"});
+  IdleKeys("outputs.", keys).off(!s.outputs.rawlog, "rawlog", "false", {"rawlog_format"});
   return keys;
-}
-
-bool is_within(const std::string& path, const std::string& whole) {
-  if (path.compare(0, whole.size(), whole) != 0) return false;
-  return path.size() == whole.size() || path[whole.size()] == '.' || path[whole.size()] == '[';
 }
 
 bool contains(const std::vector<std::string>& paths, const std::string& path) {

@@ -1,4 +1,4 @@
-// Keys that a mission states though nothing reads them: the intensity of a light of type `sun`, say, or the radius of a lamp
+// Keys that a mission states though nothing reads them: the intensity of a light of type `sun`, say, or the cone of a lamp
 // that is off. They are allowed, and hardly meant.
 #pragma once
 
@@ -10,7 +10,8 @@
 namespace rubble {
 
 struct StatedKeys {
-  std::vector<std::string> in_script;  // whole paths: "cameras.left.exposure.time"
+  // Whole paths: "cameras.left.exposure.time". Not the names of the published simulator: its lists of parameters state all.
+  std::vector<std::string> in_script;
   std::vector<std::string> by_set;     // likewise, of --set
 };
 

@@ -11,4 +11,11 @@ namespace rubble {
 // have quotation marks, as in Lua: {"concrete", 'residential'}. Text that does not fit the key comes back as text.
 Value parse_override(const Slot& slot, const std::string& text);
 
+// The whole path of the key that "KEY=VALUE" sets: "lamp.on" of "lamp=false", "pile.layers" of its alias "numlayers=3". Of an
+// unknown key as it is written.
+std::string override_path(const Schema& schema, const std::string& text);
+
+// Whether a path is `whole`, or of a part of it: "pile.mix[1].weight" of "pile.mix".
+bool is_within(const std::string& path, const std::string& whole);
+
 }  // namespace rubble

@@ -323,6 +323,19 @@ void read_table(const Schema& schema, const Value& table, std::vector<Diagnostic
   TableReader(schema, mistakes, written ? *written : paths).read_group("", "", 0, table);
 }
 
+std::string override_path(const Schema& schema, const std::string& text) {
+  const std::string name(trimmed(std::string_view(text).substr(0, text.find('='))));
+  if (const Alias* alias = find_alias(schema, name)) return alias->path;
+  const std::optional<Target> target = find_target(schema, name);
+  const bool is_switch = target && target->key.name() == "on" && name.substr(name.rfind('.') + 1) != "on";
+  return is_switch ? name + ".on" : name;
+}
+
+bool is_within(const std::string& path, const std::string& whole) {
+  if (path.compare(0, whole.size(), whole) != 0) return false;
+  return path.size() == whole.size() || path[whole.size()] == '.' || path[whole.size()] == '[';
+}
+
 void apply_override(const Schema& schema, const std::string& text,
                     std::vector<Diagnostic>& mistakes) {
   const std::size_t equals = text.find('=');

@@ -107,6 +107,9 @@ TEST(Run, ModesOfCollapseWarnOfNothing) {
     EXPECT_EQ(run.exit_code, 0) << mode << run.err;
     EXPECT_EQ(run.err.find("warning"), std::string::npos) << mode << run.err;
   }
+  const Outcome first = run_rubble("settle scripts/first_pile.lua --quiet --set pile.layers=0 --set outputs.stl=false --out " + (scratch / "first"));
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_EQ(first.err.find("warning"), std::string::npos) << first.err;
 }
 
 // A bundled script, made small: what users copy from must work.

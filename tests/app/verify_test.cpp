@@ -350,6 +350,7 @@ TEST(Render, SaysWhatOfItsMissionThePileHasNot) {
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_IN("--set fines.amount=0: changes nothing, because the pile of", refused.err);
   EXPECT_IN("rubble settle MISSION --set fines.amount=0", refused.err);
+  EXPECT_EQ(render("tiny.lua --set numlayers=4", "refused").exit_code, 1) << "an alias, and the default";
   EXPECT_FALSE(fs::exists(scratch / "refused"));
 }
 

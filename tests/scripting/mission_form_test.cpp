@@ -122,6 +122,11 @@ TEST(MissionForm, SaysWhichKeysNothingReads) {
   EXPECT_EQ(sentences_of(off, {"lamp.cone_deg=40"}), "--set: lamp.cone_deg: has no effect, because lamp.on is false\n");
   EXPECT_EQ(sentences_of(off, {"lamp.cone_deg=40", "lamp.on=true"}), "");
   EXPECT_EQ(sentences_of("lamp = { intensity_cd = 200 }", {"lamp.on=false"}), "");
+  EXPECT_EQ(sentences_of("lamp = { intensity_cd = 200 }", {"lamp=false"}), "");
+  EXPECT_EQ(sentences_of("imu = true", {" imu = false"}), "");
+  EXPECT_EQ(sentences_of("cameras = { a = { event_camera = { dark = 1 } } }", {"cameras.a.event_camera=false"}), "");
+  EXPECT_NE(sentences_of("light = { type = \"sun\" }", {"lightintensity=3"}).find("--set: light.intensity: "), std::string::npos);
+  EXPECT_EQ(sentences_of("air = { fog_noise = 0.5, dust = { period = 1 } }"), "");
   EXPECT_EQ(sentences_of("lights = { { type = \"point\", cone_deg = 20 } }"),
             "m.lua:2: lights[1].cone_deg: has no effect, because lights[1].type is \"point\"\n");
 }

@@ -13,7 +13,7 @@ return function(model, given, list)
     { "rpy_deg", { 0, 0, 0 }, min = -360, max = 360, unit = "degree", doc = "As `robots[].rpy_deg`." },
     { "friction", nil, type = "number", min = 0, max = 2, doc = "As `robots[].friction`." },
     { "start", {}, type = "table", doc = "As `robots[].start`." },
-    { "odometry_noise", 0, min = 0, max = 0.1, unit = "m", doc = "As `robots[].odometry_noise`." },
+    { "odometry_noise", nil, type = "number", min = 0, max = 0.1, unit = "m", doc = "As `robots[].odometry_noise`." },
     { "lamps", {}, type = "table", doc = "As `robots[].lamps`." },
     { "drive", {}, type = "table", doc = "As `robots[].drive`." },
     { "control", 0, type = "integer", min = 0, max = 1000,

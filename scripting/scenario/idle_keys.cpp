@@ -1,9 +1,10 @@
 #include "scripting/scenario/idle_keys.h"
 
 #include <algorithm>
-#include <initializer_list>
 
+#include "scripting/robots/robot_kind.h"
 #include "scripting/schema/override_text.h"
+#include "scripting/schema/schema.h"
 
 namespace rubble {
 namespace {
@@ -19,20 +20,22 @@ class IdleKeys {
  public:
   IdleKeys(std::string at, std::vector<IdleKey>& keys) : at_(std::move(at)), keys_(keys) {}
 
-  using Names = std::initializer_list<const char*>;
+  using Names = std::vector<std::string>;
   // Keys that a choice of the mission leaves unread.
-  void against(bool idle, const std::string& why, Names names) { add(idle, why, "", names); }
+  void against(bool idle, const std::string& why, const Names& names) {
+    if (!names.empty()) add(idle, why, "", names);
+  }
   // Keys of what is off as long as `switch_name` has its default. No names: the whole table.
-  void off(bool idle, const std::string& switch_name, const std::string& is, Names names = {}) {
+  void off(bool idle, const std::string& switch_name, const std::string& is, const Names& names = {}) {
     const std::string whole = at_ + switch_name;
     add(idle, whole + " is " + is, whole, names);
   }
 
  private:
-  void add(bool idle, const std::string& why, const std::string& switch_key, Names names) {
+  void add(bool idle, const std::string& why, const std::string& switch_key, const Names& names) {
     if (!idle) return;
-    if (names.size() == 0) keys_.push_back({at_.substr(0, at_.size() - 1), why, switch_key});
-    for (const char* name : names) keys_.push_back({at_ + name, why, switch_key});
+    if (names.empty()) keys_.push_back({at_.substr(0, at_.size() - 1), why, switch_key});
+    for (const std::string& name : names) keys_.push_back({at_ + name, why, switch_key});
   }
 
   std::string at_;
@@ -147,11 +150,33 @@ void add_building(const BuildingSpec& b, std::vector<IdleKey>& keys) {
   IdleKeys cause("pile.building.cause.", keys);
   cause.off(c.weak_storey < 0, "weak_storey", "-1", {"weakness"});
   cause.off(c.overloaded_floor < 0, "overloaded_floor", "-1", {"overload"});
+  cause.off(!(c.overload > 0), "overload", "0", {"overloaded_floor"});
   cause.off(!(c.shake > 0), "shake", "0", {"shake_hz", "shake_seconds", "shake_direction_deg", "accelerogram", "accelerogram_step"});
   cause.against(c.shake > 0 && !c.accelerogram.empty(), "the accelerogram says it", {"shake_hz", "shake_seconds"});
   cause.off(c.accelerogram.empty(), "accelerogram", "empty", {"accelerogram_step"});
   cause.off(!(c.blast > 0), "blast", "0", {"blast_at"});
   IdleKeys("pile.building.cause.vehicle.", keys).off(!(c.vehicle.mass > 0), "mass", "0");
+}
+
+// "a robot of another kind has it": the figures of all kinds are keys of each robot.
+void add_robot(const std::string& at, const RobotItem& robot, std::vector<IdleKey>& keys) {
+  IdleKeys k(at, keys);
+  const RobotKind& own = kind_of(robot);
+  for (const RobotKind* kind : robot_kinds()) {
+    const std::unique_ptr<RobotFigures> figures = kind == &own ? nullptr : kind->figures();
+    if (!figures) continue;
+    Schema schema;
+    figures->add_keys(schema);
+    IdleKeys::Names names;
+    for (const Key& key : schema.keys()) names.push_back(key.path);
+    k.against(true, "only a " + kind->name() + " has it", names);
+  }
+  const bool of_file = !robot.urdf.empty();
+  k.against(of_file, at + "urdf gives the robot", {"model"});
+  k.against(!of_file, "only a robot from a URDF file has it", {"wheel_radius", "track_speed"});
+  k.off(of_file && robot.left_wheels.empty(), "left_wheels", "empty", {"wheel_radius"});
+  k.off(of_file && robot.left_tracks.empty(), "left_tracks", "empty", {"track_speed"});
+  k.against(!own.has_sides(robot), "the robot has neither tracks nor driven wheels, so no odometry", {"odometry_noise"});
 }
 
 std::vector<IdleKey> list_idle_keys(const MissionForm& form) {
@@ -163,7 +188,9 @@ std::vector<IdleKey> list_idle_keys(const MissionForm& form) {
   add_building(s.pile.building, keys);
   IdleKeys("victims.", keys).off(s.victims.count == 0, "count", "0");
   IdleKeys("fines.", keys).off(s.fines.amount == 0, "amount", "0");
-  IdleKeys("surroundings.", keys).off(!s.surroundings.on(), "type", "\"none\"");
+  IdleKeys street("surroundings.", keys);
+  street.off(!s.surroundings.on(), "type", "\"none\"");
+  street.against(s.surroundings.on() && s.surroundings.lamps == StreetLampState::off, "surroundings.lamps is \"off\"", {"lit_windows"});
   add_main_light(form.light, keys);
   add_more_lights(s.lights, keys);
   add_air(s.air, s.lamp, keys);
@@ -171,6 +198,10 @@ std::vector<IdleKey> list_idle_keys(const MissionForm& form) {
   IdleKeys("imu.", keys).off(!form.imu_on, "on", "false");
   IdleKeys("record_settling.", keys).off(!s.record_settling.on, "on", "false");
   IdleKeys("voids.", keys).off(!s.voids.on, "on", "false");
+  IdleKeys path("trajectory.", keys);
+  path.off(s.trajectory.plan == Plan::ghost, "plan", "\"ghost\"", {"radius"});
+  path.off(!s.trajectory.ride.on(), "ride.robot", "not given", {"ride"});
+  for (std::size_t i = 0; i < s.robots.size(); ++i) add_robot("robots[" + std::to_string(i + 1) + "].", s.robots[i], keys);
   IdleKeys("robot_run.", keys).against(s.robots.empty(), "the mission has no robots", {"duration", "control_hz", "debris", "live_light"});
   IdleKeys("outputs.", keys).off(!s.outputs.rawlog, "rawlog", "false", {"rawlog_format"});
   return keys;

@@ -131,5 +131,31 @@ TEST(MissionForm, SaysWhichKeysNothingReads) {
             "m.lua:2: lights[1].cone_deg: has no effect, because lights[1].type is \"point\"\n");
 }
 
+TEST(MissionForm, SaysWhichKeysARobotOfItsKindDoesNotRead) {
+  EXPECT_EQ(sentences_of("robots = { { model = \"snake\", modules = 8, flippers = false } }"),
+            "m.lua:2: robots[1].flippers: has no effect, because only a crawler has it\n");
+  EXPECT_EQ(sentences_of("robots = { { model = \"crawler\", flippers = false, odometry_noise = 0.01 } }"), "");
+  EXPECT_EQ(sentences_of("robots = { {}, { model = \"vine\", radius = 0.04,\nwheel_radius = 0.2 } }"),
+            "m.lua:3: robots[2].wheel_radius: has no effect, because only a robot from a URDF file has it\n");
+  EXPECT_EQ(sentences_of("robots = { { model = \"vine\", odometry_noise = 0.01 } }"),
+            "m.lua:2: robots[1].odometry_noise: has no effect, because the robot has neither tracks nor driven wheels, so no odometry\n");
+  EXPECT_EQ(sentences_of("robots = { { urdf = \"a.urdf\", radius = 0.1,\ntrack_speed = 2 } }"),
+            "m.lua:2: robots[1].radius: has no effect, because only a vine has it\n"
+            "m.lua:3: robots[1].track_speed: has no effect, because robots[1].left_tracks is empty\n");
+}
+
+TEST(MissionForm, SaysWhichKeysOfAPathACauseAndAStreetNothingReads) {
+  EXPECT_EQ(sentences_of("trajectory = { radius = 0.3 }"),
+            "m.lua:2: trajectory.radius: has no effect, because trajectory.plan is \"ghost\"\n");
+  EXPECT_EQ(sentences_of("trajectory = { radius = 0.3, plan = \"avoid\", waypoints = { { position = { 0, 0, 1 } }, { position = { 1, 0, 1 } } } }"),
+            "");
+  EXPECT_EQ(sentences_of("trajectory = { ride = { position = { 0, 0, 1 } } }"),
+            "m.lua:2: trajectory.ride.position: has no effect, because trajectory.ride.robot is not given\n");
+  EXPECT_EQ(sentences_of("pile = { building = { storeys = 2, cause = { overloaded_floor = 0 } } }"),
+            "m.lua:2: pile.building.cause.overloaded_floor: has no effect, because pile.building.cause.overload is 0\n");
+  EXPECT_EQ(sentences_of("surroundings = { type = \"street\", lamps = \"off\", lit_windows = 0.5 }"),
+            "m.lua:2: surroundings.lit_windows: has no effect, because surroundings.lamps is \"off\"\n");
+}
+
 }  // namespace mission_form_test
 }  // namespace rubble

@@ -296,6 +296,15 @@ std::optional<Diagnostic> half_known_override(const Schema& schema, const std::s
   return Diagnostic{"", 0, name, "no such item: the list has " + std::to_string(size), "", "", ""};
 }
 
+// As --set has it: an item of a list has its number, that of the name as far as there is one.
+std::string numbered(std::string path, const std::string& name) {
+  const std::size_t from = name.find_first_of("123456789");
+  const std::string number =
+      from == std::string::npos ? "1" : name.substr(from, name.find_first_not_of("0123456789", from) - from);
+  for (std::size_t at = path.find("[]"); at != std::string::npos; at = path.find("[]", at)) path.insert(at + 1, number);
+  return path;
+}
+
 Diagnostic unknown_override(const Schema& schema, const std::string& name) {
   if (const auto half_known = half_known_override(schema, name)) return *half_known;
   std::vector<std::string> paths;
@@ -312,7 +321,7 @@ Diagnostic unknown_override(const Schema& schema, const std::string& name) {
       if (near.empty() && path.size() > name.size() &&
           path.compare(path.size() - name.size() - 1, std::string::npos, "." + name) == 0)
         near = path;
-  d.hint = near.empty() ? "`rubble check` prints every key" : "did you mean `" + near + "`?";
+  d.hint = near.empty() ? "`rubble check` prints every key" : "did you mean `" + numbered(near, name) + "`?";
   return d;
 }
 

@@ -246,7 +246,7 @@ TEST(MissionOverrides, MistakesNameSet) {
   EXPECT_EQ(
       mission_error("return rubble.mission { seed = 1 }",
                     with_overrides({"pile.layres=3", "camera.width=a", "camera.width=5", "width=64",
-                                    "zzz=1", "pile", "trajectory.waypoints[9].t=1", "pile.mix=a"})),
+                                    "zzz=1", "pile", "trajectory.waypoints[9].t=1", "pile.mix=a", "robots.2.position=1,0,0"})),
       "--set: pile.layres: unknown key `pile.layres` (did you mean `pile.layers`?)\n"
       "--set: camera.width: wrong type: expected an integer from 16 to 8192, found the "
       "string \"a\"\n"
@@ -254,6 +254,7 @@ TEST(MissionOverrides, MistakesNameSet) {
       "--set: not an assignment: expected KEY=VALUE, found \"pile\"\n"
       "--set: trajectory.waypoints[9].t: no such item: the list has 1\n"
       "--set: pile.mix: not a single value: expected a script for lists and tables\n"
+      "--set: robots.2.position: unknown key `robots.2.position` (did you mean `robots[2].position`?)\n"
       // What a parameter of the script might have been, at its end.
       "--set: width: unknown key `width` (did you mean `camera.width`?)\n"
       "--set: zzz: unknown key `zzz` (`rubble check` prints every key)");

@@ -55,6 +55,9 @@ local function ridden(robot, ride)
   ride.robot = "base"
   return { robots = { robot }, robot_run = { duration = 10 }, trajectory = { rate_hz = 15, ride = ride } }
 end
+local function start(structure, x)
+  return structure == "lean_over" and x - 2 or x  -- whose debris reaches farther
+end
 local carriers = {}
 function carriers.orbit()
   return { trajectory = rubble.trajectory.orbit { radius_m = 8, height = 2.5, turns = 0.25, speed = 1.2 } }
@@ -65,21 +68,22 @@ function carriers.push()
     { t = 10, position = { -5.5, 1.5, 0.9 }, look_at = { 0, 0, 0.4 } },
   } } }
 end
-function carriers.crawler()
+function carriers.crawler(structure)
   local drive = {
     { t = 0, linear = 0.4, flippers_deg = { 45, 45, 60, 60 } },
     { t = 6, linear = 0.4, angular = 0.3, flippers_deg = { 20, 20, 0, 0 } },
   }
-  return ridden(rubble.robot.crawler { name = "base", position = { -6.5, 0.3, 0.001 }, drive = drive },
+  return ridden(rubble.robot.crawler { name = "base", position = { start(structure, -6.5), 0.3, 0.001 }, drive = drive },
                 { position = { 0.3, 0, 0.3 }, rpy_deg = { 0, 10, 0 } })
 end
-function carriers.rover()
-  return ridden(rubble.robot.rover { name = "base", position = { -6.5, -0.4, 0.001 }, drive = { { t = 0, linear = 0.4 } } },
+function carriers.rover(structure)
+  local drive = { { t = 0, linear = 0.4 } }
+  return ridden(rubble.robot.rover { name = "base", position = { start(structure, -6.5), -0.4, 0.001 }, drive = drive },
                 { position = { 0.2, 0, 0.3 }, rpy_deg = { 0, 5, 0 } })
 end
 function carriers.snake(structure)
-  local x = structure == "lean_over" and -6.6 or -6  -- whose debris reaches farther
-  return ridden(rubble.robot.snake { name = "base", position = { x, 1, 0.03 }, drive = { { t = 0, gait = "sidewinding" } } },
+  local drive = { { t = 0, gait = "sidewinding" } }
+  return ridden(rubble.robot.snake { name = "base", position = { start(structure, -6), 1, 0.03 }, drive = drive },
                 { position = { 0.05, 0, 0.04 } })
 end
 

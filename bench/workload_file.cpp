@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/random.h"
 
 namespace rubble {
@@ -52,7 +53,7 @@ class WordReader {
 
   double real(const char* expected) {
     const double value = number<double>(expected);
-    if (!std::isfinite(value)) fail("not finite", expected, std::to_string(value));
+    if (!std::isfinite(value)) fail("not finite", expected, plain_text(value));
     return value;
   }
 
@@ -139,7 +140,7 @@ Placement read_piece(WordReader& reader, int shapes) {
   piece.kind = reader.integer(which.c_str(), 0, shapes - 1);
   piece.scale = reader.real("a scale");
   if (piece.scale <= 0) {
-    reader.fail("out of range", "a scale above 0", std::to_string(piece.scale));
+    reader.fail("out of range", "a scale above 0", plain_text(piece.scale));
   }
   piece.world_from_body.translation = read_vector(reader, "a position");
   Quat& q = piece.world_from_body.rotation;
@@ -147,7 +148,7 @@ Placement read_piece(WordReader& reader, int shapes) {
   const double square = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
   if (std::abs(square - 1) > 1e-6) {
     reader.fail("not a rotation", "a quaternion of length 1",
-                "the length " + std::to_string(std::sqrt(square)));
+                "the length " + brief_text(std::sqrt(square)));
   }
   q = normalized(q);
   return piece;

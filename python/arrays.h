@@ -20,6 +20,7 @@
 
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
+#include "kernel/base/number_text.h"
 #include "scripting/values/value.h"
 
 namespace rubble::python {
@@ -81,15 +82,15 @@ constexpr double kFarthest = 1e9;  // that rays are cast from and to; beyond wha
 inline void expect_positive(double value, const char* name, double most = std::numeric_limits<double>::infinity()) {
   if (value > 0 && value <= most) return;
   std::string expected = "more than 0";
-  if (std::isfinite(most)) expected += ", at most " + format_number(most);
-  throw InputError({"", 0, name, "out of range", expected, format_number(value), ""});
+  if (std::isfinite(most)) expected += ", at most " + exact_text(most);
+  throw InputError({"", 0, name, "out of range", expected, exact_text(value), ""});
 }
 
 // Of seven finite numbers.
 inline Pose read_pose(const double* v, const char* name) {
   for (int i = 0; i < 3; ++i)
     if (!(std::abs(v[i]) <= kFarthest))
-      throw InputError({"", 0, name, "out of range", "x y z from -1e9 to 1e9 m", format_number(v[i]), ""});
+      throw InputError({"", 0, name, "out of range", "x y z from -1e9 to 1e9 m", exact_text(v[i]), ""});
   const Quat q{v[3], v[4], v[5], v[6]};
   const double squares = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
   if (!(squares > 1e-12 && std::isfinite(squares)))

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/scene/build_scene.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/parallel.h"
 #include "kernel/queries/queries.h"
 #include "kernel/voids/seen_cells.h"
@@ -31,8 +32,8 @@ VoxelGrid grid_around(const std::vector<Vec3>& centres, double voxel) {
   grid.voxel = voxel;
   const Vec3 most = (box.max - box.min) * (1 / voxel) + Vec3{1, 1, 1};
   if (!(most.x * most.y * most.z < kMostVoxels))
-    throw InputError({"", 0, "voxel", "the grid around the cells is too large", "at most " + format_number(kMostVoxels) + " voxels",
-                      format_number(most.x * most.y * most.z), "ask for larger voxels"});
+    throw InputError({"", 0, "voxel", "the grid around the cells is too large", "at most " + exact_text(kMostVoxels) + " voxels",
+                      exact_text(most.x * most.y * most.z), "ask for larger voxels"});
   grid.corner = box.min - Vec3{0.5, 0.5, 0.5} * voxel;
   for (int k = 0; k < 3; ++k)
     grid.size[std::size_t(k)] = int(std::floor((box.max[k] - box.min[k]) / voxel + 0.5)) + 1;
@@ -57,7 +58,7 @@ class Explorer : public OneThread {
         seen_(make_seen(to_points(cells, "cells"), voxel)) {
     expect_positive(max_range, "max_range", kFarthest);
     if (!(radius >= 0.001 && radius <= 100))
-      throw InputError({"", 0, "radius", "out of range", "0.001 to 100 m", format_number(radius), ""});
+      throw InputError({"", 0, "radius", "out of range", "0.001 to 100 m", exact_text(radius), ""});
   }
 
   void forget() { seen_.forget(), clearance_ = 0; }
@@ -95,7 +96,7 @@ class Explorer : public OneThread {
     const Vec3 from = to_points(from_row, "from").at(0), way = to_points(way_row, "way").at(0);
     const double length = norm(way);
     if (!(length <= kLongestWay))
-      throw InputError({"", 0, "way", "out of range", "at most " + format_number(kLongestWay) + " m", format_number(length), ""});
+      throw InputError({"", 0, "way", "out of range", "at most " + exact_text(kLongestWay) + " m", exact_text(length), ""});
     // Clearance changes by no more than the distance that is gone.
     if (distance(from, at_) == 0 && clearance_ - length >= radius_) return nb::make_tuple(from_vector(from + way), true);
     const int parts = std::max(1, int(std::ceil(length / (kProbe * radius_))));

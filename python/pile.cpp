@@ -10,6 +10,7 @@
 #include "app/pipeline/stages.h"
 #include "app/scene/build_scene.h"
 #include "app/support/print.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/parallel.h"
 #include "kernel/base/system/file_sandbox.h"
 #include "kernel/geometry/fine_shapes.h"
@@ -131,7 +132,7 @@ nb::dict cast_rays(Pile& pile, const DoubleArray& origins, const DoubleArray& di
                       std::to_string(from.size()), ""});
   for (const Vec3& d : along)
     if (!(norm(d) > 0 && std::isfinite(norm(d))))
-      throw InputError({"", 0, "directions", "no direction", "a length above 0 and below 1e150", format_number(norm(d)), ""});
+      throw InputError({"", 0, "directions", "no direction", "a length above 0 and below 1e150", exact_text(norm(d)), ""});
   const PileQueries& queries = pile.queries();
   const auto count = along.size();
   std::vector<double> distance(count, std::numeric_limits<double>::infinity()), normals(3 * count, 0);

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "kernel/base/hash.h"
+#include "kernel/base/number_text.h"
 #include "scripting/sandbox/script_file.h"
 #include "scripting/scenario/idle_keys.h"
 #include "scripting/scenario/mission_form.h"
@@ -192,7 +193,7 @@ std::vector<std::string> find_suspicious(const Mission& mission) {
     const std::string key = camera.key() + ".fov_deg";
     if (camera.camera.fov_deg <= kLargestInRadians)
       sentences.push_back(Diagnostic{mission.script.path, mission.lines.line_of(key), key,
-                                     format_number(camera.camera.fov_deg) + " degrees is very narrow", "", "",
+                                     exact_text(camera.camera.fov_deg) + " degrees is very narrow", "", "",
                                      "is it in radians?"}
                               .text());
   }

@@ -4,6 +4,7 @@
 
 #include "assets/generator/box.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/random.h"
 #include "scripting/values/value.h"
 
@@ -47,7 +48,7 @@ std::string hash_box(const TriangleMesh& mesh, const Material& material) {
 
 std::string placed_box_name(const PlacedItem& item) {
   std::string name = "box";
-  for (int i = 0; i < 3; ++i) name += (i ? "x" : " ") + format_number((*item.box)[i]);
+  for (int i = 0; i < 3; ++i) name += (i ? "x" : " ") + exact_text((*item.box)[i]);
   name += " " + item.material;
   for (const std::string& face : item.broken) name += " " + face;
   return name;

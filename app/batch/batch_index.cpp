@@ -9,6 +9,7 @@
 #include "app/mission/finished_run.h"
 #include "app/provenance/manifest.h"
 #include "io/base/escaped_text.h"
+#include "kernel/base/number_text.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
@@ -103,7 +104,7 @@ std::string format_row(const Row& row, const Sweep& sweep, const DrawnNames& dra
   }
   for (const std::string& column : columns) {
     const auto found = row.metrics.find(column);
-    line += "," + (found == row.metrics.end() ? "" : format_number(found->second));
+    line += "," + (found == row.metrics.end() ? "" : exact_text(found->second));
   }
   return line + "\n";
 }

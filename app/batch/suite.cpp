@@ -16,6 +16,7 @@
 #include "io/base/atomic_file.h"
 #include "io/playback/recorded_picture.h"
 #include "io/state/pile_state_file.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/system/output_files.h"
 #include "scripting/suite_script.h"
@@ -196,8 +197,8 @@ class Suite {
       result.failures.push_back(name + " is expected, but this run has none" +
                                 (name.rfind("void_", 0) == 0 ? " (`voids.on = true`)" : ""));
     else if (!(found->second >= limits[0] && found->second <= limits[1]))
-      result.failures.push_back(name + " is " + format_number(found->second) + ", not from " +
-                                format_number(limits[0]) + " to " + format_number(limits[1]));
+      result.failures.push_back(name + " is " + exact_text(found->second) + ", not from " +
+                                exact_text(limits[0]) + " to " + exact_text(limits[1]));
   }
 
   void print(const CaseResult& result) const {

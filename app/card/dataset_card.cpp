@@ -9,6 +9,7 @@
 #include "app/estimate/disk_estimate.h"
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/text.h"
 #include "scripting/values/value.h"
 
@@ -59,7 +60,7 @@ std::string fixed(double value, int digits) {
 std::string describe_lens(const Intrinsics& k) {
   std::string text = "fx " + fixed(k.fx, 3) + ", fy " + fixed(k.fy, 3) + ", cx " + fixed(k.cx, 3) + ", cy " +
                      fixed(k.cy, 3) + (k.lens == LensModel::fisheye ? "; fisheye k1..k4" : "; k1 k2 p1 p2 k3");
-  for (const double d : k.distortion) text += " " + format_number(d);
+  for (const double d : k.distortion) text += " " + exact_text(d);
   return text;
 }
 
@@ -93,10 +94,10 @@ std::string describe_camera(const Scenario& s, const MountedCamera& mounted, std
   const std::string number = frames > 0 ? ", " + std::to_string(frames) + " frames" : "";
   const double rate_hz = mounted.rate_hz.value_or(s.trajectory.rate_hz);
   std::string text = table_row("colour camera" + name, std::to_string(k.width) + " x " + std::to_string(k.height) + " at " +
-                                   format_number(rate_hz) + " Hz" + number + carried_by(mounted.ride));
+                                   exact_text(rate_hz) + " Hz" + number + carried_by(mounted.ride));
   text += table_row("its lens", describe_lens(k));
   if (mounted.camera.stereo_baseline > 0)
-    text += table_row("stereo", "a second camera " + format_number(mounted.camera.stereo_baseline) + " m to the right");
+    text += table_row("stereo", "a second camera " + exact_text(mounted.camera.stereo_baseline) + " m to the right");
   text += table_row("depth", mounted.depth_sensor.type == DepthSensorType::none
                            ? "exact, along the optical axis, without anti-aliasing"
                            : "exact, and as the depth sensor of the mission measures it");
@@ -115,8 +116,8 @@ std::string describe_sensors(const Scenario& s, std::size_t frames) {
   for (const ImuScenario& imu : imus) {
     const ImuModel& m = imu.model;
     text += table_row("inertial unit" + (imus.size() > 1 ? " `" + imu.name + "`" : std::string()),
-                      format_number(m.rate_hz) + " Hz; densities: gyroscope " + format_number(m.gyroscope_noise) +
-                          " rad/s/sqrt(Hz), accelerometer " + format_number(m.accelerometer_noise) + " m/s2/sqrt(Hz)" +
+                      exact_text(m.rate_hz) + " Hz; densities: gyroscope " + exact_text(m.gyroscope_noise) +
+                          " rad/s/sqrt(Hz), accelerometer " + exact_text(m.accelerometer_noise) + " m/s2/sqrt(Hz)" +
                           carried_by(imu.ride));
   }
   for (const SensorItem& sensor : s.sensors)
@@ -174,7 +175,7 @@ std::string files(const FinishedRun& saved) {
 
 std::string metrics(const Manifest& manifest) {
   std::string text = "## Figures\n\n| metric | value |\n| --- | --- |\n";
-  for (const auto& [name, value] : manifest.metrics) text += table_row("`" + name + "`", format_number(value));
+  for (const auto& [name, value] : manifest.metrics) text += table_row("`" + name + "`", exact_text(value));
   return text + "\n";
 }
 

@@ -14,6 +14,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/manual.h"
 #include "app/support/print.h"
+#include "kernel/base/number_text.h"
 #include "scripting/schema/schema.h"
 #include "scripting/values/value.h"
 
@@ -22,7 +23,7 @@ namespace {
 
 std::string to_text(const std::string& value) { return value; }
 std::string to_text(int value) { return std::to_string(value); }
-std::string to_text(double value) { return format_number(value); }
+std::string to_text(double value) { return exact_text(value); }
 template <typename T>
 std::string to_text(const std::optional<T>& value) {
   return value ? to_text(*value) : "";

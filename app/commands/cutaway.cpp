@@ -16,6 +16,7 @@
 #include "app/support/print.h"
 #include "app/support/run_request.h"
 #include "io/image/picture_sheet.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/quick_math.h"
 #include "render/renderer.h"
@@ -192,7 +193,7 @@ ExitCode draw_cutaway(const FolderRequest& request, const CutawayRequest& cutawa
   PileSection section = cut_pile(build_scene(Scenario{}, assets, pile), y);
   if (section.faces.empty() && !cutaway.y) y = find_middle(pile), section = cut_pile(build_scene(Scenario{}, assets, pile), y);
   if (section.faces.empty())
-    throw InputError({"", 0, "--y", "the plane cuts no piece", "a plane through the pile", std::to_string(y), ""});
+    throw InputError({"", 0, "--y", "the plane cuts no piece", "a plane through the pile", plain_text(y), ""});
   light_up(section.scene);
   const View view(section, y, cutaway.width * kOversample);
   RenderOptions options;

@@ -11,7 +11,7 @@
 #include "app/support/print.h"
 #include "io/base/atomic_file.h"
 #include "io/base/escaped_text.h"
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 #include "io/learning/parquet_file.h"
 #include "io/mesh/pile_model.h"
 #include "kernel/base/error.h"

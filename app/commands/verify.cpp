@@ -22,6 +22,7 @@
 #include "io/playback/recording_check.h"
 #include "io/state/pile_state_file.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/system/output_files.h"
 #include "scripting/values/value.h"
@@ -232,7 +233,7 @@ class Verifier {
     const std::string pixel = describe_difference(*was, *is);
     if (!pixel.empty()) return "; " + pixel + ", by " + was->file;
     return was->step > 0
-               ? "; " + was->file + " rounds depth to " + format_number(was->step) +
+               ? "; " + was->file + " rounds depth to " + exact_text(was->step) +
                      " m and shows no difference"
                : "; yet " + was->file + " holds the same pixels: the manifest was altered";
   }

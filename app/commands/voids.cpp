@@ -15,6 +15,7 @@
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
 #include "io/voids/void_files.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/parallel.h"
 #include "kernel/voids/solid_voxels.h"
 #include "kernel/voids/void_map.h"
@@ -54,7 +55,7 @@ void check_radii(const std::vector<double>& radii) {
   for (const double radius : radii) {
     if (!names.insert(millimetres(radius)).second)
       throw InputError({"", 0, "--radius", "is given twice", "radii that differ by a millimetre",
-                        std::to_string(radius), ""});
+                        plain_text(radius), ""});
   }
 }
 

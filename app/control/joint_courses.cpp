@@ -5,6 +5,7 @@
 
 #include "app/control/robot_control.h"
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
@@ -34,7 +35,7 @@ void check_points(const JointTrajectoryCommand& trajectory) {
              std::to_string(point.velocities.size()));
     if (point.time < 0 || point.time <= last)
       refuse(point_key(i, "time_from_start"), "not in order",
-             i == 0 ? "0 s or more" : "more than " + format_number(last) + " s", format_number(point.time) + " s");
+             i == 0 ? "0 s or more" : "more than " + exact_text(last) + " s", exact_text(point.time) + " s");
     last = point.time;
   }
 }
@@ -46,7 +47,7 @@ void check_limits(const RobotJoint& joint, const JointTrajectoryCommand& traject
     const double position = trajectory.points[i].positions[column];
     if (position >= lower && position <= upper) continue;
     refuse(point_key(i, "positions"), "beyond the limits of " + joint.name,
-           format_number(lower) + " to " + format_number(upper) + unit, format_number(position) + unit);
+           exact_text(lower) + " to " + exact_text(upper) + unit, exact_text(position) + unit);
   }
 }
 

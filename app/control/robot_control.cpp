@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/robots/robot_log.h"
+#include "kernel/base/number_text.h"
 #include "scripting/robots/robot_kind.h"
 
 namespace rubble {
@@ -58,7 +59,7 @@ void check_legs(const RobotItem& robot, const RobotModel& model, const std::stri
     if (const auto mistake = find_unheld(model, leg.joint_names, leg.joints.size(), at + ".joints")) throw InputError(*mistake);
     if (!model.sides.any() && (leg.linear != 0 || leg.angular != 0))
       throw InputError({"", 0, at + (leg.linear != 0 ? ".linear" : ".angular"), "this robot has neither tracks nor driven wheels",
-                        "0", format_number(leg.linear != 0 ? leg.linear : leg.angular), ""});
+                        "0", exact_text(leg.linear != 0 ? leg.linear : leg.angular), ""});
     const std::size_t flippers = model.sides.belts ? std::size_t(motors) : 0;
     if (leg.flippers_deg.size() > flippers)
       throw InputError({"", 0, at + ".flippers_deg", "more angles than the robot has flippers", std::to_string(flippers) + " at most",

@@ -9,6 +9,7 @@
 #include "app/control/robot_control.h"
 #include "app/control/sense_tables.h"
 #include "app/support/print.h"
+#include "kernel/base/number_text.h"
 #include "kernel/robot/odometry.h"
 #include "scripting/mission.h"
 #include "scripting/robots/robot_kind.h"
@@ -119,7 +120,7 @@ RobotController ScriptControl::controller_of(std::size_t robot, const RobotModel
       if (auto unheld = find_unheld(model, {}, answer.leg.joints.size(), "joints")) mistakes.push_back(std::move(*unheld));
     }
     for (Diagnostic& d : mistakes) {
-      d.message += ", at t = " + format_number(std::round(sense.time * 1000) / 1000) + " s";
+      d.message += ", at t = " + exact_text(std::round(sense.time * 1000) / 1000) + " s";
       d.key = d.key.empty() ? key : key + ": " + d.key;
       if (d.line > 0) continue;
       d.file = state.mission.provenance.script.path;

@@ -11,6 +11,7 @@
 #include "app/sensors/camera_renderers.h"
 #include "app/support/drawing_device.h"
 #include "app/support/print.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/parallel.h"
 #include "scripting/sandbox/script_file.h"
 
@@ -118,7 +119,7 @@ void check_entry(const DriveWorld& world) {
                 world.queries().clearance(world.entry.position));
   throw InputError({"", 0, "trajectory.waypoints[1].position",
                     "the camera's body does not fit at the start of the flight",
-                    "trajectory.radius = " + std::to_string(radius) + " m of clearance", found,
+                    "trajectory.radius = " + brief_text(radius) + " m of clearance", found,
                     "move it, make trajectory.radius smaller, or use plan = \"ghost\""});
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/scene/build_scene.h"
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/voids/void_path.h"
 #include "scripting/sensors/lidar.h"
@@ -142,7 +143,7 @@ void NavigationWorld::choose_void() {
   for (const Void& v : voids)
     if (try_void(v)) return;
   throw InputError({"", 0, "pile", "no void for the crawler",
-                    "one that a ball of " + std::to_string(rules_.radius) + " m enters from the ground, with room before it",
+                    "one that a ball of " + plain_text(rules_.radius) + " m enters from the ground, with room before it",
                     std::to_string(voids.size()) + " voids of another kind", "another pile or seed"});
 }
 

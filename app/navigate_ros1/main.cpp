@@ -15,6 +15,7 @@
 #include "io/base/atomic_file.h"
 #include "io/live/ros1_robot.h"
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/system/output_files.h"
 #include "kernel/base/text.h"
 
@@ -80,7 +81,7 @@ void complete(Request& r) {
   for (const auto& [x, y] : r.goals) {
     if (!(std::fabs(x) <= 50 && std::fabs(y) <= 50))
       throw InputError({"", 0, "--goal", "too far", "at most 50 m ahead and aside",
-                        std::to_string(x) + " " + std::to_string(y), ""});
+                        plain_text(x) + " " + plain_text(y), ""});
     r.navigator.waypoints.push_back({x, y, 0});
   }
   const std::filesystem::path folder = std::filesystem::path(r.log).parent_path();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/hash.h"
+#include "kernel/base/number_text.h"
 #include "scripting/trajectory/trajectory.h"
 #include "scripting/values/value.h"
 
@@ -40,7 +41,7 @@ std::optional<TrackWindow> find_window(const Scenario& scenario, const Track& tr
   const double to = std::min(asked.to.value_or(track.end()), track.end());
   if (to <= asked.from) {
     throw InputError({"", 0, "record_settling.from", "the pile rests by then",
-                      "less than " + format_number(track.end()) + " s", format_number(asked.from),
+                      "less than " + exact_text(track.end()) + " s", exact_text(asked.from),
                       ""});
   }
   return TrackWindow{asked.from, to};

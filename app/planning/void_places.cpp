@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/support/print.h"
+#include "kernel/base/number_text.h"
 #include "scripting/values/value.h"
 
 namespace rubble {
@@ -54,7 +55,7 @@ class Resolver {
         return a->path_length > b->path_length;
       });
     if (std::size_t(place.rank) <= open.size()) return *open[std::size_t(place.rank) - 1];
-    const std::string sphere = "a sphere of radius " + format_number(place.radius) + " m";
+    const std::string sphere = "a sphere of radius " + exact_text(place.radius) + " m";
     throw InputError({"", 0, key, "no such void in this pile",
                       open.empty() ? "a void that " + sphere + " can enter"
                                    : "a rank from 1 to " + std::to_string(open.size()),

@@ -5,6 +5,7 @@
 
 #include "app/robots/urdf_robot.h"
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/system/file_sandbox.h"
 #include "scripting/robots/robot_kind.h"
@@ -75,7 +76,7 @@ void set_starts(const RobotItem& robot, const std::string& key, RobotModel& mode
     RobotJoint& joint = model.joints[given.back()];
     if (position < joint.lower || position > joint.upper)
       throw InputError({"", 0, key + "." + name, "outside of the joint's range",
-                        std::to_string(joint.lower) + " to " + std::to_string(joint.upper), std::to_string(position), ""});
+                        plain_text(joint.lower) + " to " + plain_text(joint.upper), plain_text(position), ""});
     joint.start = position;
   }
   for (const MimicJoint& mimic : model.mimics) {

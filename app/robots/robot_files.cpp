@@ -4,7 +4,7 @@
 
 #include "io/base/atomic_file.h"
 #include "io/base/escaped_text.h"
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 #include "io/robot/urdf_writer.h"
 #include "io/mesh/stl_writer.h"
 #include "io/scenes/scene_text.h"
@@ -56,7 +56,7 @@ std::string trajectory_text(const Track& track, const std::string& frame, int ba
     const Vec3& p = motion->world_from_body.translation;
     const Quat& q = motion->world_from_body.rotation;
     text += seconds_text(start_ns + std::int64_t(track.times[i] * 1e9 + 0.5));
-    for (double number : {p.x, p.y, p.z, q.x, q.y, q.z, q.w}) text += " " + format_number(number);
+    for (double number : {p.x, p.y, p.z, q.x, q.y, q.z, q.w}) text += " " + exact_text(number);
     text += "\n";
   }
   return text;
@@ -74,7 +74,7 @@ std::string joints_text(const RobotModel& model, const RobotLog& log) {
     for (std::size_t k = 0; k < model.joints.size(); ++k) {
       if (model.joints[k].motor.effort <= 0) continue;
       for (double number : {sample.positions[k], sample.speeds[k], sample.efforts[k]}) {
-        text += "," + format_number(number);
+        text += "," + exact_text(number);
       }
     }
     text += "\n";
@@ -90,7 +90,7 @@ std::string odometry_text(const RobotLog& log) {
     text += seconds_text(log.samples()[i].stamp_ns);
     for (double number : {o.x, o.y, o.yaw, o.linear, o.angular, o.true_linear, o.true_angular, o.left,
                           o.right, o.slip_left(), o.slip_right()}) {
-      text += "," + format_number(number);
+      text += "," + exact_text(number);
     }
     text += "\n";
   }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/base/inertia.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/geometry/shape.h"
 #include "kernel/robot/parts.h"
@@ -101,7 +102,7 @@ class Masses {
     sum(number, body);
     if (!std::isfinite(body.mass) || body.mass < 0)
       return mistakes_.push_back({file_.path, line, body.name, "its mass is no number", "more than 0 kg",
-                                  std::to_string(body.mass), ""});
+                                  plain_text(body.mass), ""});
     const bool stands = number == 0 && file_.fixed;  // its mass counts in sums alone
     if (body.mass == 0)  // also with moments alone
       infer_mass(line, stands, body);

@@ -8,6 +8,7 @@
 #include "app/robots/urdf_parts.h"
 #include "io/robot/xacro_tool.h"
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/geometry/shape.h"
 
 namespace rubble {
@@ -240,7 +241,7 @@ class Builder : private UrdfDraft {
     for (std::size_t j = 0; j < made.model.joints.size(); ++j)
       for (const double figure : {made.model.joints[j].damping, made.model.joints[j].friction})
         if (figure > kMostGain)
-          add_mistake(joint_lines[j], made.model.joints[j].name, "too much damping or friction", "1e9 at most", std::to_string(figure));
+          add_mistake(joint_lines[j], made.model.joints[j].name, "too much damping or friction", "1e9 at most", plain_text(figure));
   }
 
   // What has no collision shape falls through everything, if nothing holds it.

@@ -20,6 +20,7 @@
 #include "app/search/search_agent.h"
 #include "app/support/stop.h"
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/system/output_files.h"
 
 namespace rubble {
@@ -140,12 +141,7 @@ std::string how_it_ended(int status) {
   return std::string("by signal ") + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";
 }
 
-std::string seconds(double value) {
-  std::string text = std::to_string(value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text + " s";
-}
+std::string seconds(double value) { return plain_text(value) + " s"; }
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 
 #include "app/scene/build_scene.h"
 #include "app/victims/place_victims.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/voids/void_path.h"
 #include "scripting/scenario/camera_scenario.h"
@@ -64,7 +65,7 @@ void SearchWorld::find_start() {
   const auto& voids = map_.robots.front().voids;
   const auto largest = std::find_if(voids.begin(), voids.end(), [](const Void& v) { return !v.entrances.empty(); });
   if (largest == voids.end())
-    throw InputError({"", 0, "pile", "no void for the robot", "one that a ball of " + std::to_string(rules_.radius) +
+    throw InputError({"", 0, "pile", "no void for the robot", "one that a ball of " + plain_text(rules_.radius) +
                       " m can enter", std::to_string(voids.size()) + " that are sealed", "another pile or seed"});
   const Entrance& entrance = largest->entrances.front();
   start_.position = entrance.position;

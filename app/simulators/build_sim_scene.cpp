@@ -7,7 +7,7 @@
 #include "app/fines/pile_fines.h"
 #include "app/scene/build_scene.h"
 #include "app/scene/look_pictures.h"
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 #include "io/scenes/pile_export.h"
 #include "kernel/base/error.h"
 #include "kernel/base/inertia.h"

@@ -16,6 +16,7 @@
 #include "bench/equilibrium/work.h"
 #include "bench/program.h"
 #include "bench/settle_run.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {
@@ -106,7 +107,7 @@ Job make_job(const Item& item, const Request& request, const fs::path& folder) {
   if (request.pile_only) job.arguments.push_back("--pile-only");
   if (request.no_balance) job.arguments.push_back("--no-lp");
   job.arguments.push_back("--tolerance");
-  job.arguments.push_back(std::to_string(request.tolerance));
+  job.arguments.push_back(exact_text(request.tolerance));
   job.log = folder / (fs::path(item.work).stem().string() + "-" + std::to_string(item.seed));
   return job;
 }

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/base/folder_writer.h"
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 #include "io/datasets/dataset_recorders.h"
 #include "io/image/image_file.h"
 #include "io/recording/frame_order.h"

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "io/base/folder_writer.h"
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 #include "io/image/image_file.h"
 #include "io/recording/frame_order.h"
 

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "io/base/folder_writer.h"
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 #include "io/datasets/pose_rows.h"
 #include "io/image/image_file.h"
 #include "io/recording/frame_order.h"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/base/folder_writer.h"
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 #include "io/image/exr_file.h"
 #include "io/image/flow_file.h"
 #include "io/image/image_file.h"

@@ -3,7 +3,7 @@
 
 #include "io/base/folder_writer.h"
 #include "io/base/little_endian.h"
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 #include "io/datasets/dataset_recorders.h"
 #include "io/datasets/pose_rows.h"
 #include "io/image/image_file.h"

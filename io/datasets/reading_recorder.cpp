@@ -1,7 +1,7 @@
 #include "io/datasets/reading_recorder.h"
 
 #include "io/base/folder_writer.h"
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {

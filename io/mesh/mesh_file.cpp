@@ -13,6 +13,7 @@
 #include "io/mesh/mesh_bytes.h"
 #include "io/mesh_formats/scene_reader.h"
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/system/isolated_worker.h"
 
@@ -33,7 +34,7 @@ void check_readable(const std::string& path) {
 
 void check_units(const MeshUnits& units, const std::string& path) {
   if (units.metres_per_unit > 0 && std::isfinite(units.metres_per_unit)) return;
-  refuse_mesh(path, "the mesh needs a positive unit, not " + std::to_string(units.metres_per_unit));
+  refuse_mesh(path, "the mesh needs a positive unit, not " + plain_text(units.metres_per_unit));
 }
 
 // What the file states of its own axes counts before `up`.

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <unordered_map>
 
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {

@@ -10,6 +10,7 @@
 #include "io/base/little_endian.h"
 #include "io/import/polygon.h"
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {
@@ -242,7 +243,7 @@ void read_vertices(PlyFile& file, const Element& element, PlyMesh& mesh) {
       for (std::uint64_t k = 0; k < count; ++k) {
         const double value = file.number(property.type);
         if (property.slot < 0) continue;
-        if (property.slot < kNormal && !std::isfinite(value)) file.refuse("not finite", property.name, std::to_string(value));
+        if (property.slot < kNormal && !std::isfinite(value)) file.refuse("not finite", property.name, plain_text(value));
         values[property.slot] = value / property.largest;
       }
     }

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 
 namespace rubble {
@@ -124,7 +125,7 @@ class QuietNavigator : public mrpt::nav::CReactiveNavigationSystem3D {
 };
 
 void expect_positive(const char* key, double value) {
-  if (!(value > 0)) throw InputError({"", 0, key, "out of range", "more than 0", std::to_string(value), ""});
+  if (!(value > 0)) throw InputError({"", 0, key, "out of range", "more than 0", plain_text(value), ""});
 }
 
 void check(const NavigatorOptions& o) {

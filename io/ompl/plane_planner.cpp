@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {
@@ -154,7 +155,7 @@ std::vector<Vec3> solve(const Problem& problem) {
 }
 
 void expect_positive(const char* key, double value) {
-  if (!(value > 0)) throw InputError({"", 0, key, "out of range", "more than 0", std::to_string(value), ""});
+  if (!(value > 0)) throw InputError({"", 0, key, "out of range", "more than 0", plain_text(value), ""});
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <limits>
 #include <sstream>
 
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 #include "io/image/exr_file.h"
 #include "io/image/flow_file.h"
 #include "io/image/image_file.h"

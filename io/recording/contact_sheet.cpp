@@ -11,6 +11,7 @@
 #include "io/image/scan_plan.h"
 #include "io/recording/frame_order.h"
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 
 namespace rubble {
@@ -237,8 +238,8 @@ void check_range(const char* name, int value, int low, int high) {
   Diagnostic diagnostic;
   diagnostic.key = std::string("contact sheet: ") + name;
   diagnostic.message = "is out of range";
-  diagnostic.expected = "from " + std::to_string(low) + " to " + std::to_string(high);
-  diagnostic.found = std::to_string(value);
+  diagnostic.expected = "from " + plain_text(low) + " to " + plain_text(high);
+  diagnostic.found = plain_text(value);
   throw InputError(diagnostic);
 }
 

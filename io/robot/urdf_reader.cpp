@@ -9,6 +9,7 @@
 #include "io/robot/urdf_elements.h"
 #include "io/robot/xacro_tool.h"
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/read_file.h"
 #include "kernel/base/system/file_sandbox.h"
 
@@ -129,7 +130,7 @@ class PartReader {
       elements_.expect(*mass, {"value"}, {});
       link.mass = elements_.number(*mass, "value", 0, true);
       if (link.mass < 0)
-        elements_.mistake(mass->line, "a mass below 0", "0 kg or more", std::to_string(link.mass) + " kg");
+        elements_.mistake(mass->line, "a mass below 0", "0 kg or more", plain_text(link.mass) + " kg");
     }
     double i[6] = {};
     if (const XmlElement* inertia = from.child("inertia")) {
@@ -188,7 +189,7 @@ class PartReader {
       return elements_.mistake(shape.line, "<" + shape.name + "> is not a shape that can be read",
                                "<box>, <cylinder>, <capsule>, <sphere> or <mesh>", "<" + shape.name + ">");
     }
-    if (least < 0) elements_.mistake(shape.line, "its geometry has a size below 0", "sizes above 0 m", std::to_string(least));
+    if (least < 0) elements_.mistake(shape.line, "its geometry has a size below 0", "sizes above 0 m", plain_text(least));
     if (least == 0)
       elements_.warn(shape.line, "<" + shape.name + "> of " + from.name + " has a size of 0 and is left out");
     else
@@ -257,7 +258,7 @@ class PartReader {
     joint.upper = elements_.number(*limit, "upper", 0, false, true);
     if (joint.lower > joint.upper || joint.lower == kNever || joint.upper == -kNever)
       elements_.mistake(limit->line, "its range is empty", "lower <= upper",
-                        std::to_string(joint.lower) + " to " + std::to_string(joint.upper));
+                        plain_text(joint.lower) + " to " + plain_text(joint.upper));
   }
 
   // 0: there is no such limit, or it is below 0, which some programs write for "none".

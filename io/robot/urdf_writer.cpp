@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "io/base/escaped_text.h"
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/text.h"
 

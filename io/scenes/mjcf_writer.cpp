@@ -4,7 +4,7 @@
 
 #include "io/base/escaped_text.h"
 #include "io/base/little_endian.h"
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 #include "io/scenes/scene_text.h"
 #include "io/scenes/scene_writers.h"
 #include "io/scenes/surface_heights.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 #include "io/scenes/scene_text.h"
 #include "io/scenes/scene_writers.h"
 #include "kernel/base/portable_math.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "io/base/atomic_file.h"
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/hash.h"
 
 namespace rubble {

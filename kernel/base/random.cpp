@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kernel/base/hash.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {
@@ -75,7 +76,7 @@ WeightedChoice::WeightedChoice(const std::vector<double>& weights) {
   double sum = 0;
   for (const double w : weights) {
     if (!(w >= 0.0) || !(w < 1e300))
-      throw std::invalid_argument("a weight is negative or not finite: " + std::to_string(w));
+      throw std::invalid_argument("a weight is negative or not finite: " + brief_text(w));
     cumulative_.push_back(sum += w);
   }
   if (!(sum > 0.0)) throw std::invalid_argument("no weight is above zero");

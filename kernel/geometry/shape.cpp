@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/geometry/hull.h"
 
 namespace rubble {
@@ -116,10 +117,10 @@ ConvexShape compile_part(const Hull& hull, const Vec3& centre) {
 
 void check_material(const PieceType& type, const std::string& key) {
   if (!(type.density >= kLeastDensity && type.density <= kMostDensity)) {
-    fail(key + ".density", "out of range", "10 to 20000 kg/m3", std::to_string(type.density));
+    fail(key + ".density", "out of range", "10 to 20000 kg/m3", plain_text(type.density));
   }
   if (!(type.friction >= 0 && type.friction <= 2)) {
-    fail(key + ".friction", "out of range", "0 to 2", std::to_string(type.friction));
+    fail(key + ".friction", "out of range", "0 to 2", plain_text(type.friction));
   }
   // What touches nothing has its mass from its volume.
   if (!type.parts.empty() && type.surface)
@@ -173,7 +174,7 @@ Shape compile_shape(const PieceType& type, const std::string& key) {
   shape.volume = type.volume ? *type.volume : sum_of(volumes);
   if (!(shape.volume.volume > 0)) {
     fail(key + ".volume", "the volume is not positive", "more than 0 m3",
-         std::to_string(shape.volume.volume));
+         brief_text(shape.volume.volume));
   }
   for (const Hull& hull : hulls) {
     shape.parts.push_back(compile_part(hull, shape.volume.centre_of_mass));

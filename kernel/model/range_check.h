@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 
@@ -17,7 +18,7 @@ class RangeCheck {
     if (!fine) problems_.push_back({"", 0, key_ + member, message, expected, found, ""});
   }
   void expect(bool fine, const std::string& member, const std::string& expected, double found) {
-    expect(fine, member, "out of range", expected, std::to_string(found));
+    expect(fine, member, "out of range", expected, plain_text(found));
   }
   // Throws InputError with all that was not fine.
   void finish() const {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/surroundings/make_surroundings.h"
 #include "kernel/world/world_robots.h"
 
@@ -28,7 +29,7 @@ WorldOptions world_options(const RobotRunOptions& options) {
 
 void check(const RobotRunOptions& options) {
   const auto expect = [](bool fine, const char* key, const char* expected, double found) {
-    if (!fine) throw InputError({"", 0, key, "out of range", expected, std::to_string(found), ""});
+    if (!fine) throw InputError({"", 0, key, "out of range", expected, plain_text(found), ""});
   };
   expect(options.duration > 0, "duration", "more than 0 s", options.duration);
   expect(options.control_hz >= 1 && options.control_hz <= 1000, "control_hz", "1 to 1000 Hz",

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
 #include "kernel/structure/building.h"
@@ -153,16 +154,16 @@ class Furnisher {
       const double across = std::min(b_.span_x, span_y) - clear, along = std::max(b_.span_x, span_y) - clear;
       const auto refuse = [i](const std::string& expected, double found) {
         throw InputError({"", 0, "pile.building.furniture[" + std::to_string(i + 1) + "].asset",
-                          "does not fit into the building", expected, std::to_string(found) + " m",
+                          "does not fit into the building", expected, brief_text(found) + " m",
                           "take smaller assets, or a building with higher storeys or larger spans"});
       };
-      if (size.z > height) refuse("lower than " + std::to_string(height) + " m, below the beams", size.z);
+      if (size.z > height) refuse("lower than " + brief_text(height) + " m, below the beams", size.z);
       if (b_.planned()) continue;
       if (std::min(size.x, size.y) > across) {
-        refuse("narrower than " + std::to_string(across) + " m, between the columns", std::min(size.x, size.y));
+        refuse("narrower than " + brief_text(across) + " m, between the columns", std::min(size.x, size.y));
       }
       if (std::max(size.x, size.y) > along) {
-        refuse("shorter than " + std::to_string(along) + " m, between the columns", std::max(size.x, size.y));
+        refuse("shorter than " + brief_text(along) + " m, between the columns", std::max(size.x, size.y));
       }
     }
   }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/random.h"
 #include "kernel/geometry/shape.h"
 #include "kernel/model/pile.h"
@@ -35,7 +36,7 @@ class SpecCheck {
     problems_.push_back(d);
   }
   void expect(bool fine, const std::string& key, const std::string& expected, double found) {
-    expect(fine, key, expected, std::to_string(found));
+    expect(fine, key, expected, plain_text(found));
   }
   void finish() const {
     if (!problems_.empty()) throw InputError(problems_);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/parallel.h"
 
 namespace rubble {
@@ -16,8 +17,8 @@ void check_radii(const VoxelGrid& grid, const std::vector<double>& radii) {
     Diagnostic d;
     d.key = "radius[" + std::to_string(i + 1) + "]";
     d.message = "cannot be told apart on this grid";
-    d.expected = "at least a voxel, " + std::to_string(grid.voxel) + " m, and at most 100 m";
-    d.found = std::to_string(radii[i]) + " m";
+    d.expected = "at least a voxel, " + brief_text(grid.voxel) + " m, and at most 100 m";
+    d.found = brief_text(radii[i]) + " m";
     d.hint = "ask for smaller voxels";
     throw InputError(d);
   }

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {
@@ -16,7 +17,7 @@ constexpr float kFar = 1e30F;
 void check_number(double value, const std::string& key) {
   if (std::isfinite(value)) return;
   throw InputError({"", 0, key, "not a number that a motor can follow", "a finite number",
-                    std::to_string(value), "look at what the controller computes"});
+                    brief_text(value), "look at what the controller computes"});
 }
 
 void set_motor(const RobotJoint& joint, const MotorCommand& command, TreeMotor& motor) {

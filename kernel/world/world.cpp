@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/multibody/joints/joint.h"
 #include "kernel/world/world_impl.h"
 
@@ -39,7 +40,7 @@ void check(const NewPiece& piece, const WorldTypes& types, int index) {
     d.key += ".scale";
     d.message = "out of range";
     d.expected = "0.01 to 100";
-    d.found = std::to_string(piece.placement.scale);
+    d.found = plain_text(piece.placement.scale);
     throw InputError(d);
   }
 }
@@ -184,7 +185,7 @@ void World::set_sleeping(bool allowed) {
 void World::set_step(double step, int substeps) {
   Impl& w = *impl_;
   if (!(step >= 1e-3 && step <= 1.0 / 30 + 1e-12)) {
-    throw InputError({"", 0, "step", "out of range", "1/1000 to 1/30 s", std::to_string(step), ""});
+    throw InputError({"", 0, "step", "out of range", "1/1000 to 1/30 s", plain_text(step), ""});
   }
   if (substeps < 1 || substeps > 64) {
     throw InputError({"", 0, "substeps", "out of range", "1 to 64", std::to_string(substeps), ""});

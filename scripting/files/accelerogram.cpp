@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/tables/text_table.h"
 
 namespace rubble {
@@ -250,7 +251,7 @@ class AccelerogramReader {
     const double first = times[1] - times[0];
     for (std::size_t i = 1; i < times.size(); ++i)
       if (!(std::abs(times[i] - times[i - 1] - first) <= 0.01 * first))
-        refuse(rows[i].line, "unequal time steps", std::to_string(first) + " s", std::to_string(times[i] - times[i - 1]) + " s",
+        refuse(rows[i].line, "unequal time steps", brief_text(first) + " s", brief_text(times[i] - times[i - 1]) + " s",
                "resample it");
     result_.step = (times.back() - times.front()) / double(times.size() - 1);
   }
@@ -263,11 +264,11 @@ class AccelerogramReader {
 
   void finish() {
     if (result_.values.empty()) refuse(0, "has no values", "accelerations", "none");
-    if (!(result_.step >= 1e-4 && result_.step <= 10)) refuse(0, "has an odd time step", "0.0001 to 10 s", std::to_string(result_.step) + " s");
+    if (!(result_.step >= 1e-4 && result_.step <= 10)) refuse(0, "has an odd time step", "0.0001 to 10 s", brief_text(result_.step) + " s");
     for (const double value : result_.values) result_.peak = std::max(result_.peak, std::abs(value));
     constexpr double kLargestRecorded = 50;  // the largest on record is 43 m/s2 (Iwate, 2008); unit: m/s2
     if (result_.peak > kLargestRecorded)
-      result_.notes.push_back("the peak of " + std::to_string(result_.peak) + " m/s2 is larger than any recorded one: is the unit right?");
+      result_.notes.push_back("the peak of " + brief_text(result_.peak) + " m/s2 is larger than any recorded one: is the unit right?");
   }
 
   std::string path_;

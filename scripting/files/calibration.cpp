@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "kernel/base/math.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/tables/text_table.h"
 #include "scripting/files/calibration_values.h"
@@ -48,8 +49,8 @@ class CalibrationReader : private CalibrationValues {
   void check_lens(const CalibratedLens& lens, const std::string& key) const {
     const bool whole = lens.width == std::floor(lens.width) && lens.height == std::floor(lens.height);
     if (!whole || lens.width < 1 || lens.height < 1)
-      refuse(key, "no size of the image", "a width and a height", format_number(lens.width) + " x " + format_number(lens.height));
-    if (!(lens.fx > 0) || !(lens.fy > 0)) refuse(key, "no focal length", "fx and fy above 0", format_number(lens.fx));
+      refuse(key, "no size of the image", "a width and a height", exact_text(lens.width) + " x " + exact_text(lens.height));
+    if (!(lens.fx > 0) || !(lens.fy > 0)) refuse(key, "no focal length", "fx and fy above 0", exact_text(lens.fx));
   }
 
   Value camera_keys(const CalibratedLens& lens, const std::string& key) const {

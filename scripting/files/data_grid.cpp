@@ -8,6 +8,7 @@
 
 #include "io/image/data_picture.h"
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/tables/text_table.h"
 #include "scripting/values/value.h"
 
@@ -37,7 +38,7 @@ DataGrid grid_of_picture(DataPicture picture) {
   if (!picture.ground) return grid;
   const PictureGround& g = *picture.ground;
   if (std::abs(g.pixel_x - g.pixel_y) > kMostStretch * g.pixel_x)
-    decline_grid("has pixels of " + format_number(g.pixel_x) + " by " + format_number(g.pixel_y) + "; resample it to squares");
+    decline_grid("has pixels of " + exact_text(g.pixel_x) + " by " + exact_text(g.pixel_y) + "; resample it to squares");
   grid.spacing = g.pixel_x, grid.degrees = g.degrees;
   grid.east = g.left, grid.north = g.top - g.pixel_y * picture.height;
   return grid;
@@ -112,12 +113,12 @@ DataGrid parse_esri_grid(std::string_view text, bool kept) {
   const double columns = head.require("ncols"), rows = head.require("nrows");
   const bool whole = columns == std::floor(columns) && rows == std::floor(rows);
   if (!(columns >= 1 && rows >= 1 && whole) || columns * rows != double(grid.values.size()))
-    decline_grid("has " + std::to_string(grid.values.size()) + " values instead of " + format_number(columns) + " times " +
-            format_number(rows));
+    decline_grid("has " + std::to_string(grid.values.size()) + " values instead of " + exact_text(columns) + " times " +
+            exact_text(rows));
   grid.columns = int(columns), grid.rows = int(rows);
   grid.spacing = head.require("cellsize");
   if (!(grid.spacing > 0) && !(kept && grid.spacing == 0))
-    decline_grid("has the cellsize " + format_number(grid.spacing) + ": expected the distance of its points, above 0");
+    decline_grid("has the cellsize " + exact_text(grid.spacing) + ": expected the distance of its points, above 0");
   grid.degrees = grid.spacing > 0 && grid.spacing < kLeastMetres;
   grid.east = head.either("xllcorner", "xllcenter", grid.spacing / 2);
   grid.north = head.either("yllcorner", "yllcenter", grid.spacing / 2);
@@ -152,7 +153,7 @@ Blocks divide(int points, int block) {
   return {count, left_over / 2, std::max(0, left_over)};
 }
 
-std::string number_text(double value) { return std::isnan(value) ? "nan" : format_number(value); }
+std::string number_text(double value) { return std::isnan(value) ? "nan" : exact_text(value); }
 
 }  // namespace
 
@@ -204,11 +205,11 @@ std::string data_grid_text(const DataGrid& grid) {
   if (grid.colour) comments += std::string("# ") + kOfColours + "\n";
   if (grid.metric()) {
     text = "ncols " + std::to_string(grid.columns) + "\nnrows " + std::to_string(grid.rows) + "\n" + comments + "xllcorner " +
-           format_number(grid.east) + "\nyllcorner " + format_number(grid.north) + "\ncellsize " +
-           format_number(grid.spacing) + "\n";
+           exact_text(grid.east) + "\nyllcorner " + exact_text(grid.north) + "\ncellsize " +
+           exact_text(grid.spacing) + "\n";
   } else {
     text = "P2\n" + comments + std::to_string(grid.columns) + " " + std::to_string(grid.rows) + "\n" +
-           format_number(grid.white) + "\n";
+           exact_text(grid.white) + "\n";
   }
   for (int r = 0; r < grid.rows; ++r) {
     for (int c = 0; c < grid.columns; ++c)

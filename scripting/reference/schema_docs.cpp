@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "kernel/base/number_text.h"
 #include "scripting/packs/pack_schema.h"
 #include "scripting/reference/slot_types.h"
 #include "scripting/sandbox/lua_library.h"
@@ -61,7 +62,7 @@ std::string listed(const std::vector<std::string>& names) {
 
 // "1e6" instead of "1e+06".
 std::string short_number(double value) {
-  std::string text = format_number(value);
+  std::string text = exact_text(value);
   const std::size_t at = text.find('e');
   if (at != std::string::npos && text[at + 1] == '+') text.erase(at + 1, 1);
   if (at != std::string::npos) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kernel/base/number_text.h"
 #include "scripting/robots/robot_kind.h"
 #include "scripting/schema/schema.h"
 #include "scripting/values/value.h"
@@ -55,8 +56,8 @@ void check_legs(const RobotItem& robot, std::size_t i, std::vector<Diagnostic>& 
     const std::string leg = key_of(i, "drive[" + std::to_string(k + 1) + "]");
     if (k > 0 && robot.drive[k].t <= robot.drive[k - 1].t)
       mistakes.push_back({"", 0, leg + ".t", "not in order",
-                          "more than " + format_number(robot.drive[k - 1].t) + " s",
-                          format_number(robot.drive[k].t) + " s", ""});
+                          "more than " + exact_text(robot.drive[k - 1].t) + " s",
+                          exact_text(robot.drive[k].t) + " s", ""});
     const std::size_t joints = robot.drive[k].joints.size(), names = robot.drive[k].joint_names.size();
     if (names != 0 && names != joints)
       mistakes.push_back({"", 0, leg + ".joint_names", "not as many as joints", std::to_string(joints) + " names",

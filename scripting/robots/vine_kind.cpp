@@ -3,6 +3,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "kernel/base/number_text.h"
 #include "kernel/robot/drive_commands.h"
 #include "scripting/robots/robot_kind.h"
 #include "scripting/robots/vine.h"
@@ -58,11 +59,11 @@ class Vine : public RobotKind {
     const double links = std::floor(own.length / own.link_length + 1e-9);
     if (links < 1)
       mistakes.push_back({"", 0, key + "length", "shorter than a link",
-                          "link_length (" + format_number(own.link_length) + " m) or more", format_number(own.length) + " m",
+                          "link_length (" + exact_text(own.link_length) + " m) or more", exact_text(own.length) + " m",
                           "a shorter link_length makes more of a short vine"});
     if (links > kMostTubeLinks)
       mistakes.push_back({"", 0, key + "length", "too many links",
-                          std::to_string(kMostTubeLinks) + " links of link_length or fewer", format_number(links),
+                          std::to_string(kMostTubeLinks) + " links of link_length or fewer", exact_text(links),
                           "a longer link_length needs fewer"});
   }
 

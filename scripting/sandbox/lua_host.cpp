@@ -6,6 +6,7 @@
 #include <new>
 #include <type_traits>
 
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
 #include "kernel/base/text.h"
@@ -76,7 +77,7 @@ int draw_uniform(lua_State* lua) {
   const double high = lua_isnoneornil(lua, 3) ? 1.0 : finite_at(lua, 3);
   luaL_argcheck(lua, low <= high, 3, "the upper limit is below the lower one");
   const double value = random.uniform(low, high);
-  note_draw(lua, next_draw_name(lua), format_number(value));
+  note_draw(lua, next_draw_name(lua), exact_text(value));
   lua_pushnumber(lua, value);
   return 1;
 }
@@ -98,7 +99,7 @@ int draw_normal(lua_State* lua) {
   const double mean = lua_isnoneornil(lua, 2) ? 0.0 : finite_at(lua, 2);
   const double deviation = lua_isnoneornil(lua, 3) ? 1.0 : finite_at(lua, 3);
   const double value = mean + deviation * random.normal();
-  note_draw(lua, next_draw_name(lua), format_number(value));
+  note_draw(lua, next_draw_name(lua), exact_text(value));
   lua_pushnumber(lua, value);
   return 1;
 }
@@ -112,7 +113,7 @@ int draw_choice(lua_State* lua) {
   const int type = lua_rawgeti(lua, 2, chosen);
   std::string text = std::to_string(chosen);
   if (type == LUA_TSTRING) text = lua_tostring(lua, -1);
-  if (type == LUA_TNUMBER) text = format_number(lua_tonumber(lua, -1));
+  if (type == LUA_TNUMBER) text = exact_text(lua_tonumber(lua, -1));
   note_draw(lua, next_draw_name(lua), printable(text));
   return 1;
 }
@@ -121,7 +122,7 @@ int draw_direction(lua_State* lua) {
   const Vec3 v = stream_at(lua, 1).direction();
   const std::string name = next_draw_name(lua);
   for (int i = 0; i < 3 && !name.empty(); ++i)
-    note_draw(lua, name + "." + "xyz"[i], format_number(v[i]));
+    note_draw(lua, name + "." + "xyz"[i], exact_text(v[i]));
   lua_createtable(lua, 3, 0);
   for (int i = 0; i < 3; ++i) {
     lua_pushnumber(lua, v[i]);

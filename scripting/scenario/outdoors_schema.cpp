@@ -1,3 +1,4 @@
+#include "kernel/base/number_text.h"
 #include "scripting/scenario/part_schemas.h"
 
 #include <algorithm>
@@ -90,7 +91,7 @@ void check_surroundings(const Scenario& scenario, std::vector<Diagnostic>& mista
   for (const double storeys : s.storeys)
     if (storeys != std::floor(storeys))
       mistakes.push_back({"", 0, "surroundings.storeys", "not a number of storeys", "whole numbers",
-                          format_number(storeys), ""});
+                          exact_text(storeys), ""});
   if (s.on() && scenario.pile.terrain.given())
     mistakes.push_back({"", 0, "surroundings.type", "the surroundings have their own ground",
                         "a mission without pile.terrain, or \"none\"", "both", ""});

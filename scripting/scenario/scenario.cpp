@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/random.h"
 #include "scripting/robots/robot_kind.h"
@@ -63,7 +64,7 @@ void check_terrain(const TerrainScenario& t, std::vector<Diagnostic>& mistakes) 
                    std::to_string(t.rows));
   const double lowest = *std::min_element(t.heights.begin(), t.heights.end()) + t.position.z;
   if (lowest < 0)
-    add("heights", "below the ground", "z of 0 m or more", std::to_string(lowest) + " m");
+    add("heights", "below the ground", "z of 0 m or more", brief_text(lowest) + " m");
 }
 
 std::string item_key(const char* list, std::size_t i, const char* name = "") {
@@ -123,8 +124,8 @@ void check_kitti_odometry(const Scenario& scenario, std::vector<Diagnostic>& mis
       if (!spec || spec->planar()) continue;
       if (sensor.rate() != rate)
         mistakes.push_back({"", 0, sensor.key() + ".rate_hz",
-                            "outputs.kitti_odometry has one scan for each picture", format_number(rate) + " Hz, the rate of " + at,
-                            format_number(sensor.rate()) + " Hz", ""});
+                            "outputs.kitti_odometry has one scan for each picture", exact_text(rate) + " Hz, the rate of " + at,
+                            exact_text(sensor.rate()) + " Hz", ""});
       break;  // the first one is recorded
     }
   }
@@ -149,8 +150,8 @@ void check_datasets(const Scenario& scenario, std::vector<Diagnostic>& mistakes)
     if (outputs.lerobot && camera.rate_hz.value_or(scenario.trajectory.rate_hz) !=
                                cameras.front().rate_hz.value_or(scenario.trajectory.rate_hz))
       mistakes.push_back({"", 0, at + ".rate_hz", "outputs.lerobot has one rate for all cameras",
-                          format_number(cameras.front().rate_hz.value_or(scenario.trajectory.rate_hz)) + " Hz",
-                          format_number(camera.rate_hz.value_or(scenario.trajectory.rate_hz)) + " Hz", ""});
+                          exact_text(cameras.front().rate_hz.value_or(scenario.trajectory.rate_hz)) + " Hz",
+                          exact_text(camera.rate_hz.value_or(scenario.trajectory.rate_hz)) + " Hz", ""});
   }
 }
 
@@ -170,8 +171,8 @@ void check_record_settling(const RecordSettlingScenario& r, std::vector<Diagnost
                         std::move(found), ""});
   };
   if (r.to && *r.to <= r.from)
-    add("to", "nothing lies between", "more than record_settling.from = " + format_number(r.from),
-        format_number(*r.to));
+    add("to", "nothing lies between", "more than record_settling.from = " + exact_text(r.from),
+        exact_text(*r.to));
   if (r.position.has_value() != r.look_at.has_value())
     add(r.position ? "look_at" : "position", "missing",
         "both of position and look_at, or neither", "one of them");
@@ -193,8 +194,8 @@ void check_smoothness(const Scenario& scenario, std::vector<Diagnostic>& mistake
   const TrajectorySpec spec = flown_trajectory(scenario);
   if (scenario.has_unit_on_rig() && spec.smoothing && *spec.smoothing < kLeastSmoothing)
     mistakes.push_back({"", 0, "trajectory.smoothing", "too small for an inertial measurement unit",
-                        "at least " + format_number(kLeastSmoothing) + " s, or no such key",
-                        format_number(*spec.smoothing) + " s",
+                        "at least " + exact_text(kLeastSmoothing) + " s, or no such key",
+                        exact_text(*spec.smoothing) + " s",
                         "at corners without smoothing the velocity jumps, which an accelerometer cannot measure"});
   if (!mistakes.empty() || !spec.smoothing || spec.needs_pile()) return;
   try {
@@ -251,8 +252,8 @@ std::vector<Diagnostic> find_mistakes(const MissionForm& form) {
                         "no record_settling and no outputs.track, or 0", std::to_string(scenario.victims.count), ""});
   if (scenario.voids.radius < scenario.voids.voxel)
     mistakes.push_back({"", 0, "voids.radius", "smaller than a voxel",
-                        "at least voids.voxel = " + format_number(scenario.voids.voxel),
-                        format_number(scenario.voids.radius), ""});
+                        "at least voids.voxel = " + exact_text(scenario.voids.voxel),
+                        exact_text(scenario.voids.radius), ""});
   if (scenario.lights.size() > kMostLights)
     mistakes.push_back({"", 0, "lights", "too many lights",
                         "at most " + std::to_string(kMostLights - 1) + " besides the main one",

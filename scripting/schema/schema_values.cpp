@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/base/number_text.h"
 #include "scripting/schema/slot_kinds.h"
 
 namespace rubble {
@@ -12,7 +13,7 @@ constexpr double kTwo63 = 9223372036854775808.0;
 std::string limit(double value) {
   return value == std::floor(value) && std::abs(value) < kTwo63
              ? std::to_string(static_cast<std::int64_t>(value))
-             : format_number(value);
+             : exact_text(value);
 }
 
 std::string range_words(const Range& r) {

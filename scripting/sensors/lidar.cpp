@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "io/ros/ros_messages.h"
+#include "kernel/base/number_text.h"
 #include "render/lidar/lidar.h"
 
 namespace rubble {
@@ -38,8 +39,8 @@ class Mistakes {
       add("driver", "a 2-D scanner has LaserScan alone", "no such key", f_.driver == LidarDriver::ouster ? "ouster" : "livox");
     const LidarSpec spec = f_.spec();
     if (spec.min_range >= spec.max_range)
-      add("max_range", "the range is empty", "more than min_range, " + format_number(spec.min_range) + " m",
-          format_number(spec.max_range) + " m");
+      add("max_range", "the range is empty", "more than min_range, " + exact_text(spec.min_range) + " m",
+          exact_text(spec.max_range) + " m");
   }
   std::vector<Diagnostic> take() { return std::move(found_); }
 
@@ -96,7 +97,7 @@ class LidarKind : public SensorKind {
   std::optional<double> own_rate_hz() const override { return f_.rate(); }
   bool casts_rays() const override { return true; }
   SensorTiming timing(double) const override { return {true, 0, Lidar::kSceneStep}; }
-  std::string summary(double rate_hz) const override { return f_.spec().model + ", " + format_number(rate_hz) + " scans/s"; }
+  std::string summary(double rate_hz) const override { return f_.spec().model + ", " + exact_text(rate_hz) + " scans/s"; }
   std::string usual_topic() const override { return f_.planar() ? "/scan" : "/points"; }
   std::unique_ptr<SensorKind> clone() const override { return std::make_unique<LidarKind>(*this); }
 

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "io/ros/ros_messages.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "scripting/sensors/sensor_error.h"
 #include "scripting/sensors/sensor_kind.h"
@@ -108,8 +109,8 @@ class RangeFinder : public SensorKind {
   }
   std::vector<Diagnostic> find_mistakes() const override {
     if (f_.min_range < f_.max_range) return {};
-    return {{"", 0, "max_range", "the range is empty", "more than min_range, " + format_number(f_.min_range) + " m",
-             format_number(f_.max_range), ""}};
+    return {{"", 0, "max_range", "the range is empty", "more than min_range, " + exact_text(f_.min_range) + " m",
+             exact_text(f_.max_range), ""}};
   }
 
   std::unique_ptr<SensorMeter> start(const SensorSite& site, std::optional<std::uint64_t> seed, double rate_hz) const override {

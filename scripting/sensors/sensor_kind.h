@@ -15,6 +15,7 @@
 #include "io/recording/reading_format.h"
 #include "kernel/base/error.h"
 #include "kernel/base/math.h"
+#include "kernel/base/number_text.h"
 #include "scripting/schema/schema.h"
 
 namespace rubble {
@@ -81,7 +82,7 @@ class SensorKind : public ReadingFormat {
   // Of a kind with a key `rate_hz` of its own; nothing: it has the usual one.
   virtual std::optional<double> own_rate_hz() const { return std::nullopt; }
   virtual SensorTiming timing(double /*rate_hz*/) const { return {}; }
-  virtual std::string summary(double rate_hz) const { return format_number(rate_hz) + " Hz"; }  // for cards
+  virtual std::string summary(double rate_hz) const { return exact_text(rate_hz) + " Hz"; }  // for cards
   // Topic of the only sensor that has it, "/points"; several: "/NAME/points". Empty: "/NAME" of each.
   virtual std::string usual_topic() const { return ""; }
   virtual bool on_robots_only() const { return false; }  // whether it needs a `ride`

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "scripting/trajectory/curves.h"
 #include "scripting/values/value.h"
@@ -25,25 +26,18 @@ bool finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-std::string words(double value) {
-  std::string text = std::to_string(value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
-}
-
 class Checker {
  public:
   explicit Checker(const TrajectorySpec& spec) : spec_(spec) {}
 
   std::vector<Diagnostic> run() {
     if (!(spec_.rate_hz > 0) || !std::isfinite(spec_.rate_hz))
-      add("trajectory.rate_hz", "out of range", "a number above 0", words(spec_.rate_hz));
+      add("trajectory.rate_hz", "out of range", "a number above 0", plain_text(spec_.rate_hz));
     if (spec_.plan == Plan::avoid && spec_.waypoints.size() < 2)
       add("trajectory.waypoints", "the plan needs a destination", "at least two waypoints for the plan \"avoid\"",
           std::to_string(spec_.waypoints.size()));
     if (!(spec_.speed > 0) || !std::isfinite(spec_.speed))
-      add("trajectory.speed", "out of range", "a number above 0", words(spec_.speed));
+      add("trajectory.speed", "out of range", "a number above 0", plain_text(spec_.speed));
     if (spec_.waypoints.empty())
       add("trajectory.waypoints", "no waypoint", "at least one", "an empty list");
     for (std::size_t i = 0; i < spec_.waypoints.size(); ++i) {
@@ -54,17 +48,17 @@ class Checker {
     if (spec_.duration) time_ = *spec_.duration;
     if (spec_.duration && !(*spec_.duration >= kShortestLeg))
       add("trajectory.duration", "too short", "at least a microsecond",
-          format_number(*spec_.duration) + " s");
+          exact_text(*spec_.duration) + " s");
     if (spec_.smoothing && !(*spec_.smoothing >= 0 && *spec_.smoothing <= 2))
       add("trajectory.smoothing", "out of range", "a number from 0 to 2",
-          words(*spec_.smoothing));
+          plain_text(*spec_.smoothing));
     const bool smooth = spec_.limits.max_jerk || spec_.rest_at_ends;
     if (spec_.smoothing && *spec_.smoothing == 0 && smooth)
       add("trajectory.smoothing",
           std::string("contradicts ") + (spec_.limits.max_jerk ? "max_jerk" : "rest_at_ends"),
           "a number above 0, or nothing", "0");
     if (mistakes_.empty() && !(time_ * spec_.rate_hz < kMostFrames))
-      add("trajectory", "too long", "at most 10000000 frames", words(time_ * spec_.rate_hz));
+      add("trajectory", "too long", "at most 10000000 frames", plain_text(time_ * spec_.rate_hz));
     return std::move(mistakes_);
   }
 
@@ -85,7 +79,7 @@ class Checker {
     check(!w.look_at || finite(*w.look_at), ".look_at");
     check(!w.t || std::isfinite(*w.t), ".t");
     if (w.speed && (!(*w.speed > 0) || !std::isfinite(*w.speed)))
-      add(waypoint_key(i, ".speed"), "out of range", "a number above 0", words(*w.speed));
+      add(waypoint_key(i, ".speed"), "out of range", "a number above 0", plain_text(*w.speed));
   }
 
   void check_view(std::size_t i) {
@@ -105,31 +99,31 @@ class Checker {
       add(waypoint_key(i, ".speed"), "contradicts t", "one of t and speed", "both");
     if (i == 0) {
       if (w.t && *w.t != 0)
-        add(waypoint_key(i, ".t"), "the first waypoint is the start", "0", words(*w.t));
+        add(waypoint_key(i, ".t"), "the first waypoint is the start", "0", plain_text(*w.t));
       if (w.speed)
         add(waypoint_key(i, ".speed"), "the first waypoint has no speed", "nothing",
-            words(*w.speed));
+            plain_text(*w.speed));
       return;
     }
     if (w.t && spec_.plan == Plan::avoid)
       return add(waypoint_key(i, ".t"), "contradicts the plan \"avoid\"",
-                 "`speed`, because the length of the path is not known yet", words(*w.t));
+                 "`speed`, because the length of the path is not known yet", plain_text(*w.t));
     const bool unknown = w.position_in_void || spec_.waypoints[i - 1].position_in_void;
     const double length =
         unknown ? kUnknownWay : distance(w.position, spec_.waypoints[i - 1].position);
     const double next = w.t ? *w.t : time_ + length / w.speed.value_or(spec_.speed);
     if (w.t && !(*w.t > time_))
-      add(waypoint_key(i, ".t"), "times do not increase", "a time after " + words(time_) + " s",
-          words(*w.t));
+      add(waypoint_key(i, ".t"), "times do not increase", "a time after " + plain_text(time_) + " s",
+          plain_text(*w.t));
     else if (!w.t && length == 0)
       add(waypoint_key(i, ""), "no time passes", "a `t` where the camera stays in place",
           "the position of the waypoint before");
     else if (!std::isfinite(next))
       add(waypoint_key(i, ""), "never reached", "a speed at which the way takes less than 1e300 s",
-          std::to_string(w.speed.value_or(spec_.speed)) + " m/s");
+          plain_text(w.speed.value_or(spec_.speed)) + " m/s");
     else if (!(next - time_ >= kShortestLeg))
       add(waypoint_key(i, w.t ? ".t" : ""), "too soon after the waypoint before",
-          "at least a microsecond between two waypoints", format_number(next - time_) + " s");
+          "at least a microsecond between two waypoints", exact_text(next - time_) + " s");
     if (std::isfinite(next) && next > time_) time_ = next;
   }
 
@@ -292,8 +286,8 @@ static void check_size_of_path(const TrajectorySpec& spec, double duration, doub
                           : limits.max_jerk          ? "trajectory.max_jerk"
                                                      : "trajectory";
   throw InputError({"", 0, key, "the path takes too long", "at most 10000000 frames, and as many steps of smoothing",
-                    format_number(duration) + " s, " + format_number(std::floor(frames)) + " frames at " +
-                        format_number(spec.rate_hz) + " Hz",
+                    exact_text(duration) + " s, " + exact_text(std::floor(frames)) + " frames at " +
+                        exact_text(spec.rate_hz) + " Hz",
                     limits.any() ? "the limits slow the path down; speeds are in m/s" : ""});
 }
 
@@ -332,8 +326,8 @@ void CameraPath::make_smooth(const TrajectorySpec& spec) {
   const auto wild = smooth_->wildest_turn();
   if (!wild) return;
   throw InputError({"", 0, "trajectory", "the view turns too fast to be made smooth",
-                    "at most 90 degrees within " + words(knot_) + " s",
-                    words(std::round(wild->angle_deg)) + " degrees at " + words(wild->time) + " s",
+                    "at most 90 degrees within " + plain_text(knot_) + " s",
+                    plain_text(std::round(wild->angle_deg)) + " degrees at " + plain_text(wild->time) + " s",
                     "an inertial unit or max_jerk needs a smooth path: turn slower, look at a point "
                     "that is not passed straight above or below, or set trajectory.smoothing"});
 }
@@ -351,7 +345,7 @@ void CameraPath::fit_jerk(const TrajectorySpec& spec) {
   }
   if (smooth_->largest_jerk() > most)
     throw InputError({"", 0, "trajectory.max_jerk", "cannot be kept on this path",
-                      words(most) + " m/s3", words(smooth_->largest_jerk()) + " m/s3 at best",
+                      plain_text(most) + " m/s3", plain_text(smooth_->largest_jerk()) + " m/s3 at best",
                       "make it larger, or give trajectory.smoothing"});
 }
 
@@ -404,7 +398,7 @@ std::vector<CameraPose> sample_path(const MotionPath& path, double rate_hz, std:
   constexpr double kSlack = 1e-6;
   if (!(path.duration() * rate_hz < kMostFrames))
     throw InputError({"", 0, "rate_hz", "too many frames", "at most 10000000",
-                      format_number(rate_hz) + " Hz for " + format_number(path.duration()) + " s", ""});
+                      exact_text(rate_hz) + " Hz for " + exact_text(path.duration()) + " s", ""});
   const auto last = static_cast<std::int64_t>(std::floor(path.duration() * rate_hz + kSlack));
   std::vector<CameraPose> poses;
   poses.reserve(std::size_t(last) + 1);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/tables/text_table.h"
 #include "scripting/trajectory/trajectory_columns.h"
@@ -290,9 +291,9 @@ class TrajectoryReader {
     }
     if (step > kLongestStep)
       refuse(0, "the unit of the stamps is not clear", "a column such as `t [ns]`, or steps of less than 10000 s",
-             "steps of " + std::to_string(step), kNameThem);
+             "steps of " + brief_text(step), kNameThem);
     if (step > kOddStep)
-      result_.notes.push_back("the stamps are taken as seconds, " + std::to_string(step) +
+      result_.notes.push_back("the stamps are taken as seconds, " + brief_text(step) +
                               " s apart; if they are not, name the column `t [ms]` or so");
     return kSeconds;
   }
@@ -314,7 +315,7 @@ class TrajectoryReader {
   double angle_deg(const TextRow& row, Q quantity) const {
     if (!places_.has(quantity)) return 0;
     const double value = number_at(row, std::size_t(places_.of(quantity)));
-    if (std::abs(value) > 1e6) refuse(row.line, "not a rotation", "an angle of at most 1e6", std::to_string(value));
+    if (std::abs(value) > 1e6) refuse(row.line, "not a rotation", "an angle of at most 1e6", plain_text(value));
     return places_.column(quantity).unit == 1 ? value * (180 / portable::kPi) : value;
   }
 
@@ -328,7 +329,7 @@ class TrajectoryReader {
     const Quat q{scaled(row, Q::qw), scaled(row, Q::qx), scaled(row, Q::qy), scaled(row, Q::qz)};
     const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     if (!(std::abs(length - 1) <= kLengthTolerance))
-      refuse(row.line, "not a rotation", "a quaternion of length 1", std::to_string(length));
+      refuse(row.line, "not a rotation", "a quaternion of length 1", brief_text(length));
     return normalized(q);
   }
 
@@ -385,7 +386,7 @@ class TrajectoryReader {
     const StampedPose& before = result_.poses.back();
     if (pose.stamp_ns == before.stamp_ns) result_.repeated.push_back(pose.line);
     if (pose.stamp_ns >= before.stamp_ns) return;
-    refuse(pose.line, "out of order", "a stamp after that of line " + std::to_string(before.line), std::to_string(pose.stamp),
+    refuse(pose.line, "out of order", "a stamp after that of line " + std::to_string(before.line), plain_text(pose.stamp),
            "sort the file by its stamps");
   }
 

@@ -1,7 +1,8 @@
 #include "scripting/values/value.h"
 
 #include <algorithm>
-#include <charconv>
+
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {
@@ -84,7 +85,7 @@ std::string describe(const Value& value) {
     case Value::Kind::integer:
       return std::to_string(value.integer);
     case Value::Kind::number:
-      return format_number(value.number);
+      return exact_text(value.number);
     case Value::Kind::text:
       return "the string " + quoted(value.text);
     case Value::Kind::table:
@@ -93,12 +94,6 @@ std::string describe(const Value& value) {
       return value.text;
   }
   return {};
-}
-
-std::string format_number(double value) {
-  char buffer[64];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return std::string(buffer, end);
 }
 
 }  // namespace rubble

@@ -36,7 +36,4 @@ struct Value {
 // For "found ...": `the number 2.5`, `the string "wide"`, `true`, `a list of 2 items`, `nothing`.
 std::string describe(const Value& value);
 
-// The shortest decimal that reads back to the same double.
-std::string format_number(double value);
-
 }  // namespace rubble

@@ -77,10 +77,10 @@ TEST(WorkloadFile, NamesFileAndLineOfAMistake) {
             "x.txt:8: out of range: expected the index of a shape, 0 to 0, found 1" + hint);
   EXPECT_EQ(
       complaint(std::string(kTetra) + "layer 1\n0 1 0 0 0 1 1 0 0\n"),
-      "x.txt:8: not a rotation: expected a quaternion of length 1, found the length 1.414214" +
+      "x.txt:8: not a rotation: expected a quaternion of length 1, found the length 1.41421" +
           hint);
   EXPECT_EQ(complaint(std::string(kTetra) + "layer 1\n0 -1 0 0 0 1 0 0 0\n"),
-            "x.txt:8: out of range: expected a scale above 0, found -1.000000" + hint);
+            "x.txt:8: out of range: expected a scale above 0, found -1" + hint);
   EXPECT_EQ(complaint(std::string(kTetra) + "layer 1\n0 1 nan 0 0 1 0 0 0\n"),
             "x.txt:8: not finite: expected a position, found nan" + hint);
   EXPECT_EQ(complaint(std::string(kTetra) + "lair 1\n"),

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <sstream>
 
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 #include "io/datasets/colmap_recorder.h"
 #include "io/datasets/euroc_recorder.h"
 #include "io/datasets/frames_recorder.h"

@@ -11,6 +11,7 @@
 #include "app/report/svg_plot.h"
 #include "app/support/print.h"
 #include "io/base/atomic_file.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {
@@ -27,7 +28,7 @@ struct TrajectoryRequest {
 };
 
 std::string span_of(const std::vector<StampedPose>& poses) {
-  return std::to_string(poses.front().stamp) + " to " + std::to_string(poses.back().stamp) + " s";
+  return brief_text(poses.front().stamp) + " to " + brief_text(poses.back().stamp) + " s";
 }
 
 // The errors of a comparison know no file: the estimate's is the one to look at.
@@ -109,7 +110,7 @@ ExitCode eval_trajectory(const TrajectoryRequest& request) {
   if (pairs.empty())
     throw InputError(
         {request.estimate, 0, "", "has no time in common with " + request.truth,
-         "stamps within " + std::to_string(request.max_difference) + " s of " + span_of(tracks.truth.poses),
+         "stamps within " + plain_text(request.max_difference) + " s of " + span_of(tracks.truth.poses),
          span_of(tracks.estimate.poses), explain_no_overlap(tracks)});
   const TrajectoryError error =
       with_file(request.estimate, [&] { return calc_trajectory_error(pairs, request.delta); });

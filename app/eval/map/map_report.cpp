@@ -5,7 +5,7 @@
 
 #include "io/base/atomic_file.h"
 #include "io/base/little_endian.h"
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "io/base/atomic_file.h"
 #include "io/base/escaped_text.h"
-#include "io/base/number_text.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/error.h"
 
 namespace rubble {

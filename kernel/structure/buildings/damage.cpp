@@ -4,6 +4,7 @@
 #include <map>
 
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/structure/building.h"
 #include "kernel/structure/buildings/parts.h"
 
@@ -34,7 +35,7 @@ void weaken(Section& s, double share) {
   std::snprintf(expected, sizeof expected, "at most %.0f kg/m2 on a floor %.3g m thick, whose pieces carry it as their own mass",
                 std::floor((kMostDensity - density) * member.size.z), member.size.z);
   throw InputError({"", 0, "pile.building.cause.overload", "more than this floor can have", expected,
-                    std::to_string(overload), ""});
+                    brief_text(overload), ""});
 }
 
 // A floor's overload is carried, and falls, with its slabs: they become denser.

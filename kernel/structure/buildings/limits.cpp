@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/structure/building.h"
 #include "kernel/structure/buildings/parts.h"
 
@@ -45,14 +46,14 @@ void check_ranges(const BuildingSpec& b, const Fail& fail) {
   };
   for (const Range& r : ranges) {
     if (r.value >= r.low && r.value <= r.high) continue;
-    fail(r.key, std::to_string(r.low) + " to " + std::to_string(r.high), std::to_string(r.value));
+    fail(r.key, plain_text(r.low) + (r.low < r.high ? " to " + plain_text(r.high) : ""), plain_text(r.value));
   }
 }
 
 void check_lengths(const BuildingSpec& b, const Fail& fail) {
-  const auto metres = [](double x) { return std::to_string(x) + " m"; };
+  const auto metres = [](double x) { return brief_text(x) + " m"; };
   if (b.planned() || b.kind == BuildingKind::masonry) return;
-  if (b.slab > b.beam_depth) fail("slab", "not more than beam_depth", std::to_string(b.slab));
+  if (b.slab > b.beam_depth) fail("slab", "not more than beam_depth", plain_text(b.slab));
   if (b.kind == BuildingKind::bridge) {
     if (b.storey_height < b.beam_depth + 0.9 * b.column + 0.5) {
       fail("storey_height", "more than " + metres(b.beam_depth + 0.9 * b.column + 0.5) + " for girders, caps and columns",
@@ -60,7 +61,7 @@ void check_lengths(const BuildingSpec& b, const Fail& fail) {
     }
     return;
   }
-  if (b.infill_thickness > b.column) fail("infill_thickness", "not more than column", std::to_string(b.infill_thickness));
+  if (b.infill_thickness > b.column) fail("infill_thickness", "not more than column", plain_text(b.infill_thickness));
 }
 
 // Each names a bay that has the room.
@@ -76,8 +77,8 @@ void check_bays(const BuildingSpec& b, const Fail& fail) {
       if (bay.i < 0 || bay.i >= b.bays_x || bay.j < 0 || bay.j >= b.bays_y) {
         fail(item, "a bay of the building", "(" + std::to_string(bay.i) + ", " + std::to_string(bay.j) + ")");
       } else if (b.span_x - b.column < x || b.span_y - b.column < y) {
-        fail(item, "a bay of " + std::to_string(x) + " by " + std::to_string(y) + " m between the columns",
-             std::to_string(b.span_x - b.column) + " by " + std::to_string(b.span_y - b.column) + " m");
+        fail(item, "a bay of " + brief_text(x) + " by " + brief_text(y) + " m between the columns",
+             brief_text(b.span_x - b.column) + " by " + brief_text(b.span_y - b.column) + " m");
       }
       for (std::size_t m = 0; m < n; ++m) {
         if (bays[m].i == bay.i && bays[m].j == bay.j) fail(item, "a bay of its own", "that of another one");
@@ -121,7 +122,7 @@ void check_places(const BuildingSpec& b, const Fail& fail) {
   for (const ColumnPlace& p : c.removed) check("removed", p.storey, p.i, p.j, p.part);
   for (const SinkingFooting& f : c.sinking) {
     check("sinking", 0, f.i, f.j, f.part);
-    if (!(f.depth >= 0 && f.depth <= 2)) fail("sinking", "0 to 2 m", std::to_string(f.depth));
+    if (!(f.depth >= 0 && f.depth <= 2)) fail("sinking", "0 to 2 m", plain_text(f.depth));
   }
   if (c.vehicle.mass > 0) check("vehicle", 0, c.vehicle.i, c.vehicle.j, c.vehicle.part);
 }
@@ -133,7 +134,7 @@ void check_plan(const BuildingSpec& b, const Fail& fail) {
     fail("plan.heights", "1 to 12 storeys", std::to_string(b.plan.heights.size()));
   }
   for (const double height : b.plan.heights) {
-    if (!(height >= 2 && height <= 12)) fail("plan.heights", "2 to 12 m", std::to_string(height));
+    if (!(height >= 2 && height <= 12)) fail("plan.heights", "2 to 12 m", plain_text(height));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/structure/buildings/parts.h"
 
 namespace rubble {
@@ -193,7 +194,7 @@ class PlanMaker {
     const PlanPart& p = b_.plan.parts[index];
     const double head = std::min(high_, low_ + rounded(p.top)), sill = low_ + rounded(p.bottom);
     if (!(sill < head)) {
-      refuse(index, p, "a window without a height", "sill below head", std::to_string(p.bottom), "");
+      refuse(index, p, "a window without a height", "sill below head", plain_text(p.bottom), "");
     }
     Aabb box = strip(index, sill, head, k);
     const int across = box.max.x - box.min.x > box.max.y - box.min.y ? 1 : 0, along = 1 - across;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {
@@ -197,7 +198,7 @@ void Ties::drop_lost() {
 void Ties::add(const TieState& state) {
   const int count = int(data_.bodies.size());
   const auto refuse = [](const char* key, const std::string& expected, double found) {
-    throw InputError({"", 0, std::string("tie.") + key, "out of range", expected, std::to_string(found), ""});
+    throw InputError({"", 0, std::string("tie.") + key, "out of range", expected, plain_text(found), ""});
   };
   const auto is_piece = [&](std::int32_t i) { return i >= 0 && i < count && data_.bodies[i].tree < 0; };
   if (!is_piece(state.piece_a)) refuse("piece_a", "a piece that is no link", state.piece_a);

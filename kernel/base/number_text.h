@@ -13,6 +13,20 @@ inline std::string exact_text(double value) {
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
+// For sentences, of what somebody wrote: as exact_text(), but 100000 instead of 1e+05.
+inline std::string plain_text(double value) {
+  char text[32];
+  const double size = value < 0 ? -value : value;
+  if (!(size >= 1e-6 && size < 1e15)) return exact_text(value);
+  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr};
+}
+
+// For sentences, of what was computed: six digits that count.
+inline std::string brief_text(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6).ptr};
+}
+
 // With `digits` after the point.
 inline std::string fixed_text(double value, int digits) {
   char text[352];  // the longest double has 309 digits before the point

@@ -2,9 +2,13 @@
 (contrib) and Open3D. An odometry that fails keeps its last motion. (OpenCV's KinFu is there, but Debian leaves it out as
 patented.)
 """
+import os
+
 import cv2
 import numpy as np
-import open3d as o3d
+
+os.environ.setdefault("OMP_WAIT_POLICY", "passive")  # threads that spin cost tenfold on a busy machine
+import open3d as o3d  # noqa: E402
 
 NEAR, FAR = 0.2, 8.0  # of the depth that is used; unit: m
 BODY_FROM_OPTICAL = np.eye(4)  # the bag's poses are of the camera body (REP 103)

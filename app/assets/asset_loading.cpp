@@ -208,6 +208,8 @@ LoadedAsset load_asset(const Asset& asset, MeshImporter& importer) {
 }
 
 void add_asset(const FoundAsset& found, AssetLibrary& library) {
+  const std::vector<std::string>& idle = found.asset->idle_keys;
+  library.warnings.insert(library.warnings.end(), idle.begin(), idle.end());
   if (!found.asset->links.empty()) {
     library.assemblies.push_back(make_assembly(*found.asset, library));
     library.contents.push_back({found.asset->name, found.pack->name,

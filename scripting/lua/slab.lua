@@ -13,6 +13,7 @@ return function(given)
     { "material", nil, type = "string", doc = "As `pile.placed[].material`." },
     { "broken", {}, type = "strings", doc = "As `pile.placed[].broken`." },
     { "fixed", true, doc = "As `pile.placed[].fixed`." },
+    { "built_in", nil, type = "boolean", doc = "As `pile.placed[].built_in`." },
   })
   for _, key in ipairs { "from", "size" } do
     if given == nil or (type(given) == "table" and given[key] == nil) then
@@ -24,6 +25,6 @@ return function(given)
   local middle = rubble.rotate(rpy_deg, { o.size[1] / 2, 0, o.size[3] / 2 })
   return {
     box = o.size, rpy_deg = rpy_deg, position = { o.from[1] + middle.x, o.from[2] + middle.y, o.from[3] + middle.z },
-    material = o.material, broken = o.broken, fixed = o.fixed,
+    material = o.material, broken = o.broken, fixed = o.fixed, built_in = o.built_in or nil,
   }
 end

@@ -8,8 +8,10 @@
 #include "kernel/base/portable_math.h"
 #include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/text.h"
+#include "scripting/packs/idle_pack_keys.h"
 #include "scripting/packs/pack_schema.h"
 #include "scripting/sandbox/script_file.h"
+#include "scripting/schema/override_text.h"
 
 namespace rubble {
 namespace {
@@ -244,6 +246,14 @@ bool was_read(std::size_t i, const std::vector<Diagnostic>& mistakes) {
   return true;
 }
 
+// Each at the asset that states it. All assets of the table are there.
+void note_idle_keys(std::vector<Diagnostic> idle, const std::string& file, const SourceMap& lines, AssetPack& pack) {
+  locate(idle, file, lines);
+  for (std::size_t i = 0; i < pack.assets.size(); ++i)
+    for (const Diagnostic& key : idle)
+      if (is_within(key.key, "assets[" + std::to_string(i + 1) + "]")) pack.assets[i].idle_keys.push_back(key.text());
+}
+
 }  // namespace
 
 AssetPack load_asset_pack(const std::string& folder, const std::vector<Material>& materials) {
@@ -256,7 +266,8 @@ AssetPack load_asset_pack(const std::string& folder, const std::vector<Material>
 
   PackTable table;
   std::vector<Diagnostic> mistakes;
-  read_table(make_pack_schema(table), run_data_script(script, "pack", lines), mistakes);
+  std::vector<std::string> stated;
+  read_table(make_pack_schema(table), run_data_script(script, "pack", lines), mistakes, &stated);
   add_duplicates(lines, mistakes);
   AssetPack pack{table.name, root.string(), script.path, {}};
   const std::vector<Diagnostic> of_reading = mistakes;
@@ -267,6 +278,7 @@ AssetPack load_asset_pack(const std::string& folder, const std::vector<Material>
     mistakes.push_back({"", 0, "assets", "no assets", "at least one", "an empty list", ""});
   locate(mistakes, script.path, lines);
   throw_if_any(std::move(mistakes));
+  note_idle_keys(find_idle_pack_keys(table, stated), script.path, lines, pack);
   return pack;
 }
 

@@ -59,6 +59,7 @@ struct Asset {
   SizeDistribution spread;                  // between them
   double weight = 1;                  // in a mission without a mix
   std::vector<std::string> tags;      // that a mix may choose by
+  std::vector<std::string> idle_keys;  // sentences on keys that nothing reads
   int line = 0;  // of its table in pack.lua, for error messages
 };
 

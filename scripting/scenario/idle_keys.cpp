@@ -3,44 +3,12 @@
 #include <algorithm>
 
 #include "scripting/robots/robot_kind.h"
+#include "scripting/schema/idle_key_list.h"
 #include "scripting/schema/override_text.h"
 #include "scripting/schema/schema.h"
 
 namespace rubble {
 namespace {
-
-struct IdleKey {
-  std::string path;        // of a key, or of a table with all that is in it
-  std::string why;         // as in "has no effect, because ..."
-  std::string switch_key;  // that switches it off; empty: another choice of the mission stands against it
-};
-
-// Gathers the keys below one table.
-class IdleKeys {
- public:
-  IdleKeys(std::string at, std::vector<IdleKey>& keys) : at_(std::move(at)), keys_(keys) {}
-
-  using Names = std::vector<std::string>;
-  // Keys that a choice of the mission leaves unread.
-  void against(bool idle, const std::string& why, const Names& names) {
-    if (!names.empty()) add(idle, why, "", names);
-  }
-  // Keys of what is off as long as `switch_name` has its default. No names: the whole table.
-  void off(bool idle, const std::string& switch_name, const std::string& is, const Names& names = {}) {
-    const std::string whole = at_ + switch_name;
-    add(idle, whole + " is " + is, whole, names);
-  }
-
- private:
-  void add(bool idle, const std::string& why, const std::string& switch_key, const Names& names) {
-    if (!idle) return;
-    if (names.empty()) keys_.push_back({at_.substr(0, at_.size() - 1), why, switch_key});
-    for (const std::string& name : names) keys_.push_back({at_ + name, why, switch_key});
-  }
-
-  std::string at_;
-  std::vector<IdleKey>& keys_;
-};
 
 void add_main_light(const LightScenario& light, std::vector<IdleKey>& keys) {
   IdleKeys k("light.", keys);
@@ -129,6 +97,13 @@ void add_placed(const std::vector<PlacedItem>& placed, std::vector<IdleKey>& key
   }
 }
 
+void add_mix(const std::vector<MixItem>& mix, std::vector<IdleKey>& keys) {
+  for (std::size_t i = 0; i < mix.size(); ++i) {
+    IdleKeys k("pile.mix[" + std::to_string(i + 1) + "].", keys);
+    k.off(mix[i].spread.kind == Spread::uniform, "spread", "\"uniform\"", {"typical", "deviation"});
+  }
+}
+
 void add_building(const BuildingSpec& b, std::vector<IdleKey>& keys) {
   IdleKeys k("pile.building.", keys);
   k.off(!b.given(), "storeys", "0");
@@ -184,6 +159,7 @@ std::vector<IdleKey> list_idle_keys(const MissionForm& form) {
   std::vector<IdleKey> keys;
   IdleKeys("pile.", keys).off(s.pile.layers == 0, "layers", "0",
                               {"pieces_per_layer", "spawn_position", "spawn_bounds", "spawn_density"});
+  add_mix(s.pile.mix, keys);
   add_placed(s.pile.placed, keys);
   add_building(s.pile.building, keys);
   IdleKeys("victims.", keys).off(s.victims.count == 0, "count", "0");
@@ -221,7 +197,7 @@ std::vector<Diagnostic> find_idle_keys(const MissionForm& form, const StatedKeys
     for (const IdleKey& key : idle) {
       if (!is_within(path, key.path) || path == key.switch_key || excused(key) || contains(named, path)) continue;
       named.push_back(path);
-      found.push_back({file, 0, path, "has no effect, because " + key.why, "", "", ""});
+      found.push_back({file, 0, path, idle_sentence(key), "", "", ""});
     }
   };
   for (const std::string& path : stated.by_set)

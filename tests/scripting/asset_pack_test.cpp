@@ -223,6 +223,32 @@ TEST_F(AssetPackTest, RunsInTheSandbox) {
   EXPECT_EQ(error("return pack {").find(script() + ":1: "), 0u);
 }
 
+TEST_F(AssetPackTest, SaysWhichKeysNothingReads) {
+  const AssetPack pack = load(R"(return pack {
+  name = "mine",
+  assets = {
+    { name = "a", mesh = "a.obj", material = "steel", scale = { 1, 2 }, typical = 1.5 },
+    { name = "b", mesh = "b.stl", material = "steel", density = 900 },
+    { name = "arm", density = 900, scale = { 1, 2 }, links = {
+      { asset = "a", travel = 0.1 },
+      { asset = "b", on = "a", joint = "hinge", travel = 0.1,
+        limit_deg = 20, yield = 5, friction = 1 },
+    } },
+  },
+})");
+  const std::string at = script() + ":";
+  ASSERT_EQ(pack.assets.size(), 3u);
+  EXPECT_EQ(pack.assets[0].idle_keys,
+            (std::vector<std::string>{at + "4: assets[1].typical: has no effect, because assets[1].spread is \"uniform\""}));
+  EXPECT_TRUE(pack.assets[1].idle_keys.empty());
+  EXPECT_EQ(pack.assets[2].idle_keys,
+            (std::vector<std::string>{
+                at + "6: assets[3].density: has no effect, because an asset with links is made of others, which have it",
+                at + "7: assets[3].links[1].travel: has no effect, because the first link hangs on nothing",
+                at + "8: assets[3].links[2].travel: has no effect, because only a slider has it",
+                at + "9: assets[3].links[2].yield: has no effect, because assets[3].links[2].stiffness is 0"}));
+}
+
 TEST(Materials, TheBundledTable) {
   const auto materials = load_materials(RUBBLE_SOURCE_DIR "/assets/materials.lua");
   ASSERT_EQ(materials.size(), 10u);

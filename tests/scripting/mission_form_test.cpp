@@ -153,6 +153,9 @@ TEST(MissionForm, SaysWhichKeysOfAPathACauseAndAStreetNothingReads) {
             "m.lua:2: trajectory.ride.position: has no effect, because trajectory.ride.robot is not given\n");
   EXPECT_EQ(sentences_of("pile = { building = { storeys = 2, cause = { overloaded_floor = 0 } } }"),
             "m.lua:2: pile.building.cause.overloaded_floor: has no effect, because pile.building.cause.overload is 0\n");
+  EXPECT_EQ(sentences_of("pile = { mix = { { asset = \"a\", scale = { 1, 2 }, typical = 1.5 } } }"),
+            "m.lua:2: pile.mix[1].typical: has no effect, because pile.mix[1].spread is \"uniform\"\n");
+  EXPECT_EQ(sentences_of("pile = { mix = { { asset = \"a\", spread = \"normal\", typical = 1.5 } } }"), "");
   EXPECT_EQ(sentences_of("surroundings = { type = \"street\", lamps = \"off\", lit_windows = 0.5 }"),
             "m.lua:2: surroundings.lit_windows: has no effect, because surroundings.lamps is \"off\"\n");
 }

@@ -103,6 +103,7 @@ void check_hull(const Asset& asset, const TriangleMesh& mesh, const Shape& shape
 AssetReport check_asset(const Asset& asset, AssetLibrary& library) {
   AssetReport report;
   report.name = asset.name;
+  report.warnings = asset.idle_keys;
   try {
     const LoadedAsset loaded = load_asset(asset, *library.importer);
     const TriangleMesh& mesh = loaded.mesh->levels.front();
@@ -129,6 +130,7 @@ bool add_tree(const Asset& asset, const AssetLibrary& library, std::vector<TreeR
   for (const AssetLink& link : asset.links)
     if (!library.has(link.asset)) return false;
   trees.push_back(check_tree(asset, library));
+  trees.back().warnings.insert(trees.back().warnings.end(), asset.idle_keys.begin(), asset.idle_keys.end());
   return trees.back().errors.empty();
 }
 

@@ -27,13 +27,11 @@ return function(given)
   }
   local held = 0.5 * o.wall_thickness * math.cos(angle)
   for k = 0, o.storeys - 1 do
-    local slab = rubble.slab {
+    placed[#placed + 1] = rubble.slab {
       from = { -held * math.cos(angle), 0, o.height + k * o.storey_height + held * math.sin(angle) },
       size = { o.length + held, o.width, o.thickness }, pitch_deg = o.droop_deg,
-      broken = { "+x" }, fixed = true,
+      broken = { "+x" }, fixed = true, built_in = true,
     }
-    slab.built_in = true
-    placed[#placed + 1] = slab
   end
   return rubble.assemble(o, placed)
 end

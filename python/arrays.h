@@ -150,15 +150,18 @@ inline std::string to_path(const nb::object& value, const char* name) {
                     nb::repr(value).c_str(), ""});
 }
 
-// What a list has, each made by `make`. One text is no list: it would be taken for its letters.
+// What a list has, each made by `make`. One text is no list: it would be taken for its letters; and of a dict, its keys
+// would be taken alone.
 template <typename Make>
 std::vector<std::string> to_list(const nb::object& values, const char* name, const char* expected, const Make& make) {
   const bool one = PyUnicode_Check(values.ptr()) || PyBytes_Check(values.ptr());
-  const nb::object items = one ? nb::object() : nb::steal<nb::object>(PySequence_List(values.ptr()));
+  const bool named = PyDict_Check(values.ptr());
+  const nb::object items = one || named ? nb::object() : nb::steal<nb::object>(PySequence_List(values.ptr()));
   if (!items) {
     PyErr_Clear();
     const std::string found = nb::repr(values).c_str();
-    throw InputError({"", 0, name, "is no list", expected, found, one ? "put it in a list: [" + found + "]" : ""});
+    throw InputError({"", 0, name, "is no list", expected, found,
+                      one ? "put it in a list: [" + found + "]" : named ? "write each key with its value as one text of the list" : ""});
   }
   std::vector<std::string> made;
   for (const nb::handle item : nb::borrow<nb::list>(items)) made.push_back(make(nb::borrow<nb::object>(item)));

@@ -151,6 +151,10 @@ class PileOfABox(unittest.TestCase):
             self.assertEqual((raised.exception.key, len(raised.exception.diagnostics)), (key, 1))
             self.assertIn("put it in a list: [", raised.exception.diagnostics[0]["hint"])
         with self.assertRaises(rubble.InputError) as raised:
+            rubble.settle(self.path, overrides={"wetness": 0})  # its keys alone would be taken
+        self.assertEqual(raised.exception.key, "overrides")
+        self.assertIn("each key with its value", raised.exception.diagnostics[0]["hint"])
+        with self.assertRaises(rubble.InputError) as raised:
             rubble.settle(self.path, overrides=[1])
         self.assertEqual(raised.exception.key, "overrides")
         rubble.settle(self.path, overrides=(text for text in ["wetness=0"]), threads=1)

@@ -140,7 +140,8 @@ void write_manifest(const ResolvedMission& mission, const PileState& pile, const
   manifest.pile = summarize(pile);
   manifest.frames = frames.hashes.compact();
   manifest.metrics = metrics;
-  manifest.warnings = context.warnings;
+  manifest.warnings = mission.assets.warnings;  // of the mission and what it loads; the others are of the run
+  manifest.warnings.insert(manifest.warnings.end(), context.warnings.begin(), context.warnings.end());
   manifest.outputs = folder.hash_files(context.threads());
   manifest.wall_seconds = context.progress.wall_seconds();
   manifest.environment = frames.environment;

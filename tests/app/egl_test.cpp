@@ -227,11 +227,11 @@ TEST(EvenFrames, AreNamedOnceInTheLogAndTheManifest) {
   const Outcome run =
       run_rubble("run '" + (folder / "tiny.lua") + "' --quiet --out '" + (folder / "out") +
                  "' --set camera.exposure.mode=fixed --set camera.exposure.time=1e-6"
-                 " --set camera.exposure.iso=1 --set camera.sensor.noise=false");
+                 " --set camera.exposure.iso=1 --set camera.sensor.noise=false --set light.cone_deg=20");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(holds(run.err, {"warning: frame 0 is all one colour"}));
   EXPECT_EQ(run.err.find("frame 1 is all"), std::string::npos);
-  EXPECT_TRUE(holds(read_file(folder / "out/manifest.json"), {"\"warnings\": [", "frame 0 is all"}));
+  EXPECT_TRUE(holds(read_file(folder / "out/manifest.json"), {"\"warnings\": [", "light.cone_deg: has no effect", "frame 0 is all"}));
   const Outcome good = run_rubble("run '" + (folder / "tiny.lua") + "' --quiet --out '" +
                                   (folder / "good") + "'");
   EXPECT_EQ(good.err.find("warning"), std::string::npos) << good.err;

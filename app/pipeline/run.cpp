@@ -180,7 +180,7 @@ ExitCode complete(const ResolvedMission& mission, RunFolder& folder, RunContext&
                    folder.path() + "` continues");
   }
   for (const std::string& warning : context.warnings)
-    print_err("rubble: warning: %s\n", warning.c_str());
+    print_err("warning: %s\n", warning.c_str());
   folder.finish();
   return report(mission, results.pile, folder);
 }

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <numeric>
 
-#include "kernel/base/number_text.h"
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/random.h"
 #include "scripting/scenario/mission_form.h"
 

@@ -11,10 +11,10 @@
 #include "app/support/print.h"
 #include "io/base/atomic_file.h"
 #include "io/base/escaped_text.h"
-#include "kernel/base/number_text.h"
 #include "io/learning/parquet_file.h"
 #include "io/mesh/pile_model.h"
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/geometry/shape.h"
 
 namespace rubble {

@@ -4,11 +4,11 @@
 
 #include "io/base/atomic_file.h"
 #include "io/base/escaped_text.h"
-#include "kernel/base/number_text.h"
 #include "io/robot/urdf_writer.h"
 #include "io/mesh/stl_writer.h"
 #include "io/scenes/scene_text.h"
 #include "io/state/track_file.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/system/output_files.h"
 #include "kernel/geometry/hull.h"
 #include "kernel/robot/parts.h"

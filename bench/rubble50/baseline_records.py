@@ -2,6 +2,7 @@
 (bench/demonstration/records.py). One whose golden hashes, mission or method are not those of the sources counts as missing."""
 import json
 import pathlib
+import shutil
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "demonstration"))
@@ -45,5 +46,11 @@ def is_made_from(folder, depends):
     return json.loads(stamp.read_text()) == depends
 
 
-def note_what_it_is_made_from(folder, depends):
-    (folder / "made_from.json").write_text(json.dumps(depends) + "\n")
+def begin(folder, depends):
+    """An empty folder that says what its recording is made from. An older recording of ours is removed."""
+    if (folder / "made_from.json").exists():
+        shutil.rmtree(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    part = folder / "made_from.part"
+    part.write_text(json.dumps(depends) + "\n")
+    part.replace(folder / "made_from.json")

@@ -3,11 +3,11 @@
 #include <nlohmann/json.hpp>
 
 #include "io/base/folder_writer.h"
-#include "kernel/base/number_text.h"
 #include "io/datasets/dataset_recorders.h"
 #include "io/image/image_file.h"
 #include "io/recording/frame_order.h"
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "render/streams/image_streams.h"
 
 namespace rubble {

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "io/base/folder_writer.h"
-#include "kernel/base/number_text.h"
 #include "io/image/image_file.h"
 #include "io/recording/frame_order.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {

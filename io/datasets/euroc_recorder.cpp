@@ -4,10 +4,10 @@
 #include <sstream>
 
 #include "io/base/folder_writer.h"
-#include "kernel/base/number_text.h"
 #include "io/datasets/pose_rows.h"
 #include "io/image/image_file.h"
 #include "io/recording/frame_order.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {

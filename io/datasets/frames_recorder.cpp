@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "io/base/folder_writer.h"
-#include "kernel/base/number_text.h"
 #include "io/image/exr_file.h"
 #include "io/image/flow_file.h"
 #include "io/image/image_file.h"
 #include "io/recording/frame_order.h"
+#include "kernel/base/number_text.h"
 #include "render/streams/image_streams.h"
 
 namespace rubble {

@@ -4,11 +4,11 @@
 
 #include "io/base/folder_writer.h"
 #include "io/base/little_endian.h"
-#include "kernel/base/number_text.h"
 #include "io/datasets/dataset_recorders.h"
 #include "io/datasets/pose_rows.h"
 #include "io/image/image_file.h"
 #include "io/recording/frame_order.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "io/base/folder_writer.h"
 #include "io/base/little_endian.h"
-#include "kernel/base/number_text.h"
 #include "io/datasets/pose_rows.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {

@@ -2,9 +2,9 @@
 
 #include "io/base/atomic_file.h"
 #include "io/base/folder_writer.h"
-#include "kernel/base/number_text.h"
 #include "io/image/image_file.h"
 #include "io/recording/frame_order.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {

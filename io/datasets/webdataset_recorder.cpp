@@ -2,11 +2,11 @@
 
 #include "io/base/folder_writer.h"
 #include "io/base/little_endian.h"
-#include "kernel/base/number_text.h"
 #include "io/base/tar_text.h"
 #include "io/datasets/dataset_recorders.h"
 #include "io/image/image_file.h"
 #include "io/recording/frame_order.h"
+#include "kernel/base/number_text.h"
 #include "render/streams/image_streams.h"
 
 namespace rubble {

@@ -7,12 +7,12 @@
 #include <limits>
 #include <sstream>
 
-#include "kernel/base/number_text.h"
 #include "io/image/exr_file.h"
 #include "io/image/flow_file.h"
 #include "io/image/image_file.h"
 #include "io/playback/picture_sources.h"
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/read_file.h"
 #include "render/streams/image_streams.h"
 

@@ -4,10 +4,10 @@
 
 #include "io/base/escaped_text.h"
 #include "io/base/little_endian.h"
-#include "kernel/base/number_text.h"
 #include "io/scenes/scene_text.h"
 #include "io/scenes/scene_writers.h"
 #include "io/scenes/surface_heights.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 
 namespace rubble {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "kernel/base/number_text.h"
 #include "io/base/srgb.h"
 #include "io/mesh/mesh_writers.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/text.h"
 

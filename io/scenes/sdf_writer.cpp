@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "io/base/escaped_text.h"
-#include "kernel/base/number_text.h"
 #include "io/scenes/scene_text.h"
 #include "io/scenes/scene_writers.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 
 namespace rubble {

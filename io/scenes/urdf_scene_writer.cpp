@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "io/base/escaped_text.h"
-#include "kernel/base/number_text.h"
 #include "io/mesh/stl_writer.h"
 #include "io/robot/urdf_writer.h"
 #include "io/scenes/scene_text.h"
 #include "io/scenes/scene_writers.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/text.h"
 
 namespace rubble {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <map>
 
-#include "kernel/base/number_text.h"
 #include "io/scenes/scene_text.h"
 #include "io/scenes/scene_writers.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/text.h"
 

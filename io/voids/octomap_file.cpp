@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "io/base/atomic_file.h"
-#include "kernel/base/number_text.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {

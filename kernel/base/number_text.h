@@ -13,6 +13,13 @@ inline std::string exact_text(double value) {
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
+// With `digits` after the point.
+inline std::string fixed_text(double value, int digits) {
+  char text[352];  // the longest double has 309 digits before the point
+  return {text,
+          std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, digits).ptr};
+}
+
 // For sentences, of what somebody wrote: as exact_text(), but 100000 instead of 1e+05.
 inline std::string plain_text(double value) {
   char text[32];
@@ -21,17 +28,12 @@ inline std::string plain_text(double value) {
   return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr};
 }
 
-// For sentences, of what was computed: six digits that count.
+// For sentences, of what was computed: six digits that count, and all of those before the point.
 inline std::string brief_text(double value) {
+  const double size = value < 0 ? -value : value;
+  if (size >= 1e5 && size < 1e15) return fixed_text(value, 0);
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6).ptr};
-}
-
-// With `digits` after the point.
-inline std::string fixed_text(double value, int digits) {
-  char text[352];  // the longest double has 309 digits before the point
-  return {text,
-          std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, digits).ptr};
 }
 
 // Nanoseconds as seconds with nine digits after the point, without rounding. stamp_ns: >= 0.

@@ -8,7 +8,6 @@
 #include "kernel/base/portable_math.h"
 #include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/text.h"
-#include "scripting/packs/idle_pack_keys.h"
 #include "scripting/packs/pack_schema.h"
 #include "scripting/sandbox/script_file.h"
 #include "scripting/schema/override_text.h"

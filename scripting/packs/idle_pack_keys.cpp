@@ -1,5 +1,5 @@
-#include "scripting/packs/idle_pack_keys.h"
-
+// Keys of a pack.lua that nothing reads: the density of an asset that is made of others, say.
+#include "scripting/packs/pack_schema.h"
 #include "scripting/schema/idle_key_list.h"
 #include "scripting/schema/override_text.h"
 

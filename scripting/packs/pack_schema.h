@@ -61,4 +61,8 @@ Schema make_pack_schema(PackTable& pack);
 Schema make_link_schema(LinkTable& link);
 Schema make_material_schema(MaterialTable& table);
 
+// Keys that nothing reads, which are allowed and hardly meant. stated: whole paths, as in "assets[1].links[2].travel".
+// Diagnostics without file and line, in that order.
+std::vector<Diagnostic> find_idle_pack_keys(const PackTable& pack, const std::vector<std::string>& stated);
+
 }  // namespace rubble

@@ -166,7 +166,7 @@ std::vector<IdleKey> list_idle_keys(const MissionForm& form) {
   IdleKeys("fines.", keys).off(s.fines.amount == 0, "amount", "0");
   IdleKeys street("surroundings.", keys);
   street.off(!s.surroundings.on(), "type", "\"none\"");
-  street.against(s.surroundings.on() && s.surroundings.lamps == StreetLampState::off, "surroundings.lamps is \"off\"", {"lit_windows"});
+  street.off(s.surroundings.on() && s.surroundings.lamps == StreetLampState::off, "lamps", "\"off\"", {"lit_windows"});
   add_main_light(form.light, keys);
   add_more_lights(s.lights, keys);
   add_air(s.air, s.lamp, keys);

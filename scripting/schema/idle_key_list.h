@@ -1,4 +1,4 @@
-// Keys that nothing reads in a script as it is, gathered table by table (scripting/scenario/idle_keys.h, scripting/packs/idle_pack_keys.h).
+// Keys that nothing reads in a script as it is, gathered table by table (scripting/scenario/idle_keys.h, scripting/packs/pack_schema.h).
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+#include "kernel/base/number_text.h"
 #include "kernel/base/text.h"
 
 #include <gtest/gtest.h>
@@ -53,6 +54,20 @@ TEST(OneLine, HasNoBreak) {
 TEST(Printable, EveryMessageIs) {
   const InputError error({"m.lua", 2, "key\x1b[2J", "unknown", "", "", ""});
   EXPECT_STREQ(error.what(), "m.lua:2: key\\x1b[2J: unknown");
+}
+
+// What messages show of numbers: no zeros at the end, and no exponent that hides digits.
+TEST(NumberText, OfSentences) {
+  EXPECT_EQ(plain_text(0.42), "0.42");
+  EXPECT_EQ(plain_text(100000), "100000");
+  EXPECT_EQ(plain_text(1e-7), "1e-07");
+  EXPECT_EQ(plain_text(1403636579.763556), "1403636579.763556");
+  EXPECT_EQ(plain_text(-1), "-1");
+  EXPECT_EQ(plain_text(0), "0");
+  EXPECT_EQ(brief_text(1.41421356), "1.41421");
+  EXPECT_EQ(brief_text(0.42 - 0.02), "0.4");
+  EXPECT_EQ(brief_text(33333333.4), "33333333");
+  EXPECT_EQ(brief_text(1e20), "1e+20");
 }
 
 }  // namespace text_test

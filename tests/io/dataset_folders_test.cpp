@@ -9,13 +9,13 @@
 #include <cstring>
 #include <sstream>
 
-#include "kernel/base/number_text.h"
 #include "io/datasets/colmap_recorder.h"
 #include "io/datasets/euroc_recorder.h"
 #include "io/datasets/frames_recorder.h"
 #include "io/datasets/tum_recorder.h"
 #include "io/image/image_file.h"
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 #include "tests/io/support.h"
 
 namespace rubble {

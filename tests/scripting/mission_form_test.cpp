@@ -156,8 +156,10 @@ TEST(MissionForm, SaysWhichKeysOfAPathACauseAndAStreetNothingReads) {
   EXPECT_EQ(sentences_of("pile = { mix = { { asset = \"a\", scale = { 1, 2 }, typical = 1.5 } } }"),
             "m.lua:2: pile.mix[1].typical: has no effect, because pile.mix[1].spread is \"uniform\"\n");
   EXPECT_EQ(sentences_of("pile = { mix = { { asset = \"a\", spread = \"normal\", typical = 1.5 } } }"), "");
-  EXPECT_EQ(sentences_of("surroundings = { type = \"street\", lamps = \"off\", lit_windows = 0.5 }"),
-            "m.lua:2: surroundings.lit_windows: has no effect, because surroundings.lamps is \"off\"\n");
+  const std::string unlit = "surroundings = { type = \"street\", lamps = \"off\", lit_windows = 0.5 }";
+  EXPECT_EQ(sentences_of(unlit), "");
+  EXPECT_EQ(sentences_of(unlit, {"surroundings.lit_windows=1"}),
+            "--set: surroundings.lit_windows: has no effect, because surroundings.lamps is \"off\"\n");
 }
 
 }  // namespace mission_form_test

@@ -28,7 +28,7 @@ struct TrajectoryRequest {
 };
 
 std::string span_of(const std::vector<StampedPose>& poses) {
-  return brief_text(poses.front().stamp) + " to " + brief_text(poses.back().stamp) + " s";
+  return fixed_text(poses.front().stamp, 6) + " to " + fixed_text(poses.back().stamp, 6) + " s";  // of any epoch
 }
 
 // The errors of a comparison know no file: the estimate's is the one to look at.

@@ -6,8 +6,8 @@
 
 #include "io/base/atomic_file.h"
 #include "io/base/escaped_text.h"
-#include "kernel/base/number_text.h"
 #include "kernel/base/error.h"
+#include "kernel/base/number_text.h"
 
 namespace rubble {
 namespace {

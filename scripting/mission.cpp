@@ -86,6 +86,17 @@ void check_controllers(const std::vector<RobotItem>& robots, int registered, std
   }
 }
 
+// The last --set of a key counts, as in `rubble run mission.lua --set pile.layers=2 "$@"`.
+void add_replaced(const std::vector<std::string>& overrides, std::vector<Diagnostic>& idle_keys) {
+  std::map<std::string, std::string> last;
+  for (const std::string& text : overrides) last[text.substr(0, text.find('='))] = text;
+  for (const std::string& text : overrides) {
+    const std::string& counts = last[text.substr(0, text.find('='))];
+    if (counts != text)
+      idle_keys.push_back({"", 0, "--set", text + " has no effect, because --set " + counts + " follows", "", "", ""});
+  }
+}
+
 }  // namespace
 
 void give_overrides(const std::vector<std::string>& overrides, LuaSandbox& sandbox) {
@@ -144,6 +155,7 @@ Mission load_mission_text(const std::string& text, const std::string& path,
   throw_if_any(std::move(mistakes));
   mission.idle_keys = find_idle_keys(form, stated);
   locate(mission.idle_keys, path, lines);
+  add_replaced(options.overrides, mission.idle_keys);
   mission.scenario = form.normalized();
   return mission;
 }

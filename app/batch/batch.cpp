@@ -50,10 +50,7 @@ class Batch {
                     ? "out/" + fs::path(request.of.mission).stem().string() + "_batch"
                     : request.of.out),
         progress_(choose_progress_style(request.of.options.quiet)) {
-    for (const std::string& text : request.of.overrides)
-      if (text.rfind("seed=", 0) == 0)
-        throw InputError({"", 0, "--set", "--seeds gives the seeds of a batch", "a key besides the seed", "\"" + text + "\"",
-                          "leave it out"});
+    check_overrides();
     const Shard shard = request.shard.empty() ? Shard{} : parse_shard(request.shard);
     const std::uint64_t variants = sweep_.variants.size();
     for (std::size_t variant = 0; variant < variants; ++variant)
@@ -81,6 +78,18 @@ class Batch {
   }
 
  private:
+  void check_overrides() const {
+    for (const std::string& text : request_.of.overrides) {
+      if (text.rfind("seed=", 0) == 0)
+        throw InputError({"", 0, "--set", "--seeds gives the seeds of a batch", "a key besides the seed", "\"" + text + "\"",
+                          "leave it out"});
+      for (const std::string& key : sweep_.keys)
+        if (text.rfind(key + "=", 0) == 0)
+          throw InputError({"", 0, "--set", "--vary gives the values of " + key, "a key that is not varied", "\"" + text + "\"",
+                            "leave it out, or add its value to those of --vary"});
+    }
+  }
+
   // What every seed has in common is read once, so that a mistake is not found a thousand times; of
   // what varies, every value once.
   void check_mission() {

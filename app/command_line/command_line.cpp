@@ -115,6 +115,12 @@ Option& Option::separated_by(char delimiter) {
 }
 
 Option& Option::needs(const Option& other) { return option_->needs(other.option_), *this; }
+Option& Option::needs_one_of(const Option& a, const Option& b) {
+  const auto look = [a = a.option_, b = b.option_](const std::string&) -> std::string {
+    return a->count() + b->count() > 0 ? "" : "has no effect without " + a->get_name() + " or " + b->get_name();
+  };
+  return option_->check(CLI::Validator(look, "")), *this;
+}
 Option& Option::excludes(const Option& other) { return option_->excludes(other.option_), *this; }
 
 Option CommandLine::add(const std::string& name, std::string& member, const std::string& help) {

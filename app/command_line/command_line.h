@@ -38,6 +38,7 @@ class Option {
   Option& non_negative();
   Option& separated_by(char delimiter);        // several values in one: "stl,ply"
   Option& needs(const Option& other);
+  Option& needs_one_of(const Option& a, const Option& b);
   Option& excludes(const Option& other);
 
  private:

@@ -35,8 +35,8 @@ void add_run_options(CommandLine& line, RunOptions& options);
 // For commands that settle, and whose run can be resumed.
 void add_checkpoint_option(CommandLine& line, RunOptions& options);
 
-// Who to publish to; `text` says what --ros1 does. one: ROS 1 or ROS 2, not both.
-void add_ros_options(CommandLine& line, LiveRequest& live, const std::string& text, bool one = false);
+// Who to publish to, ROS 1 or ROS 2; `text` says what --ros1 does.
+void add_ros_options(CommandLine& line, LiveRequest& live, const std::string& text);
 // For ROS 2 alone, without --ros2: where to, and how fast.
 void add_served_options(CommandLine& line, LiveRequest& live);
 // For commands that draw frames: publish them meanwhile.

@@ -30,15 +30,18 @@ void add_domain_options(CommandLine& line, LiveRequest& live, const Option* ros2
   if (ros2) domain.needs(*ros2), interface.needs(*ros2);
 }
 
-void add_rate_option(CommandLine& line, LiveRequest& live) {
-  line.add_read("--rate", [&live](const std::string& text) { return read_rate(text, live.rate); },
-                "Rate of publishing: realtime (default), fast, or a factor of real time")
-      .metavar("RATE");
+Option add_rate_option(CommandLine& line, LiveRequest& live) {
+  Option rate = line.add_read("--rate", [&live](const std::string& text) { return read_rate(text, live.rate); },
+                "Rate of publishing: realtime (default), fast, or a factor of real time");
+  return rate.metavar("RATE");
 }
 
-}  // namespace
+struct RosOptions {
+  Option ros1, ros2;
+};
 
-void add_ros_options(CommandLine& line, LiveRequest& live, const std::string& text, bool one) {
+// one: not both of them.
+RosOptions add_both(CommandLine& line, LiveRequest& live, const std::string& text, bool one) {
   const Option ros1 = line.add_flag("--ros1", live.ros1, text);
   line.add("--ros-master", live.ros_master, "The ROS master")
       .shows_default_text("$ROS_MASTER_URI")
@@ -51,7 +54,12 @@ void add_ros_options(CommandLine& line, LiveRequest& live, const std::string& te
   Option ros2 = line.add_flag("--ros2", live.ros2, "Publish the frames to ROS 2 over DDS during rendering");
   if (one) ros2.excludes(ros1);
   add_domain_options(line, live, &ros2);
+  return {ros1, ros2};
 }
+
+}  // namespace
+
+void add_ros_options(CommandLine& line, LiveRequest& live, const std::string& text) { add_both(line, live, text, true); }
 
 void add_served_options(CommandLine& line, LiveRequest& live) {
   add_domain_options(line, live, nullptr);
@@ -59,13 +67,14 @@ void add_served_options(CommandLine& line, LiveRequest& live) {
 }
 
 void add_live_options(CommandLine& line, LiveRequest& live) {
-  add_ros_options(line, live, "Publish the frames to ROS 1 during rendering");
-  add_rate_option(line, live);
+  const RosOptions ros = add_both(line, live, "Publish the frames to ROS 1 during rendering", false);
+  add_rate_option(line, live).needs_one_of(ros.ros1, ros.ros2);
   line.add("--wait-for-subscribers", live.wait,
            "Longest time that the first frame waits until every topic has a subscriber")
       .shows_default()
       .metavar("SECONDS")
-      .within(0.0, 1e6);
+      .within(0.0, 1e6)
+      .needs_one_of(ros.ros1, ros.ros2);
 }
 
 }  // namespace rubble

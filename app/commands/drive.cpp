@@ -21,7 +21,7 @@ Action declare_drive(CommandLine& line) {
       .metavar("NAME");
   line.add_flag("--record", request->record, "Write the recordings of the mission during the drive");
   add_ros_options(line, request->of.options.live,
-                  "Publish the frames to ROS 1, and take commands from /cmd_vel and /joy", true);
+                  "Publish the frames to ROS 1, and take commands from /cmd_vel and /joy");
   line.add("--out", request->of.out, "Output folder")
       .shows_default_text("out/<script>_drive")
       .metavar("DIR");

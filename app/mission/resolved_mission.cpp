@@ -27,9 +27,11 @@ constexpr const char* kRunFormat = "rubble unfinished run 1";
 // What a person asked to draw, as a key of the mission: so the manifest says it. --set overrides the variable.
 std::vector<std::string> device_override(const RunRequest& request) {
   const std::optional<AskedDevice> asked = asked_device(request.options.device);
-  for (const std::string& text : request.overrides)
-    if (!request.options.device.empty() && text.compare(0, 7, "device=") == 0)
-      throw InputError({"", 0, "--device", "is given beside --set " + text, "one of them", request.options.device, ""});
+  for (const std::string& text : request.overrides) {
+    if (text.compare(0, 7, "device=") != 0) continue;
+    if (request.options.device.empty()) return {};
+    throw InputError({"", 0, "--device", "is given beside --set " + text, "one of them", request.options.device, ""});
+  }
   if (!asked) return {};
   return {"device=" + device_names()[std::size_t(asked->kind)]};
 }

@@ -214,6 +214,14 @@ TEST_F(Batch, SaysOnceThatWhatItVariesHasNoEffect) {
   EXPECT_EQ(preview.err.find(sentence), preview.err.rfind(sentence)) << preview.err;
 }
 
+TEST_F(Batch, RefusesAKeyThatIsBothVariedAndSet) {
+  const Outcome refused = run_rubble(batch("both", "1", "--vary pile.layers=1,2 --set pile.layers=3"));
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_IN("--set: --vary gives the values of pile.layers", refused.err);
+  EXPECT_EQ(run_rubble(batch("both", "1", "--preview --vary pile.layers=1,2 --set pile.layers_more=3")).err.find("gives the values"),
+            std::string::npos);
+}
+
 TEST_F(Batch, RefusesSeedsAndShardsThatAreNone) {
   for (const char* seeds : {"5..1", "1..", "a", "1,,2", "''", "-1", "99999999999999999999"})
     EXPECT_EQ(run_rubble(batch("a", seeds)).exit_code, 1) << seeds;

@@ -203,6 +203,24 @@ TEST(CommandLine, OffersAnOptionWhereItHasAnEffect) {
 
 // A command is a file with a function NAME_command(), and its name in RUBBLE_COMMANDS. A name without
 // the file does not build; a file without the name is found here.
+TEST(CommandLine, RefusesPacingOfWhatIsNotPublished) {
+  for (const char* option : {"--rate fast", "--wait-for-subscribers 3"}) {
+    const Outcome run = run_rubble(std::string("run scripts/small.lua ") + option);
+    EXPECT_EQ(run.exit_code, 1) << option;
+    EXPECT_NE(run.err.find("has no effect without --ros1 or --ros2"), std::string::npos) << run.err;
+  }
+}
+
+TEST(CommandLine, SaysWhichSettingAnotherReplaces) {
+  const Outcome check = run_rubble("check scripts/small.lua --set pile.layers=2 --set pile.pieces_per_layer=4 --set pile.layers=1");
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_NE(check.err.find("warning: --set: pile.layers=2 has no effect, because --set pile.layers=1 follows"), std::string::npos)
+      << check.err;
+  EXPECT_EQ(check.err.find("pile.pieces_per_layer"), std::string::npos) << check.err;
+  const Outcome same = run_rubble("check scripts/small.lua --set pile.layers=1 --set pile.layers=1");
+  EXPECT_EQ(same.err.find("has no effect"), std::string::npos) << same.err;
+}
+
 TEST(CommandLine, HasEveryCommandThatIsWritten) {
   const std::string cmake = read_file(RUBBLE_SOURCE_DIR "/app/CMakeLists.txt");
   const std::size_t begin = cmake.find("set(RUBBLE_COMMANDS"), end = cmake.find(')', begin);

@@ -52,7 +52,7 @@ class Suite {
         golden_(fs::path(request.suite).replace_extension(".golden.json").string()),
         shape_(choose_job_shape(request.jobs, request.options.threads)) {
     allow_results(out_);
-    if (!request.against.empty()) allow_results(request.against);
+    if (!request.against.empty()) check_against();
     for (const std::string& name : request.only) check_known(name);
     for (std::size_t i = 0; i < script_.runs.size(); ++i)
       if (wanted(script_.runs[i].name)) add_cases(script_.runs[i], i);
@@ -164,6 +164,16 @@ class Suite {
     for (std::string& sentence : golden_.find_first(c.name, pile, manifest.frames))
       c.result.failures.push_back(std::move(sentence));
     if (!request_.against.empty()) compare_with_earlier(c, manifest, pile);
+  }
+
+  void check_against() const {
+    allow_results(request_.against);
+    std::error_code failed;
+    if (!fs::is_directory(request_.against, failed))
+      throw InputError({request_.against, 0, "--against", "no such folder", "the output folder of an earlier run of the suite", "", ""});
+    if (fs::equivalent(request_.against, out_, failed))
+      throw InputError({request_.against, 0, "--against", "this run is written there, over the earlier one", "another folder",
+                        "", "set --out"});
   }
 
   // By the dataset that an earlier run of the suite left: the number of the piece, the pixel of the frame.

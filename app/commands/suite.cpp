@@ -16,10 +16,11 @@ Action declare_suite(CommandLine& line) {
       .shows_default_text("out/<name of the suite>")
       .metavar("DIR");
   line.add("--junit", request->junit, "Write the results as JUnit XML").metavar("FILE");
+  const Option update = line.add_flag("--update", request->update, "Store the hashes of this run as golden hashes");
   line.add("--against", request->against,
-           "Output folder of an earlier run of the suite; the first pixel that differs is reported")
-      .metavar("DIR");
-  line.add_flag("--update", request->update, "Store the hashes of this run as golden hashes");
+           "Output folder of an earlier run of the suite. Where a hash is not the golden one, the first pixel that differs is reported")
+      .metavar("DIR")
+      .excludes(update);
   line.add("--only", request->only, "Run only the entries with this name").metavar("NAME");
   add_jobs_options(line, request->jobs, request->options);
   return [request] { return run_suite(*request); };

@@ -343,12 +343,11 @@ Action declare_verify(CommandLine& line) {
   const auto request = std::make_shared<VerifyRequest>();
   add_folder_options(line, request->of);
   add_run_options(line, request->of.options);
-  line.add("--work", request->work, "Folder for the new run")
-      .shows_default_text("$TMPDIR")
-      .metavar("DIR");
+  const Option work =
+      line.add("--work", request->work, "Folder for the new run").shows_default_text("$TMPDIR").metavar("DIR");
   const Option keep =
-      line.add("--keep", request->keep, "Keep the new run, in this new folder").metavar("DIR");
-  line.add_flag("--pile-only", request->pile_only, "Settle again; render nothing").excludes(keep);
+      line.add("--keep", request->keep, "Keep the new run, in this new folder").metavar("DIR").excludes(work);
+  line.add_flag("--pile-only", request->pile_only, "Settle again; render nothing").excludes(keep).excludes(work);
   line.add_flag("--json", request->json, "Print the result as JSON");
   return [request] { return verify_run(*request); };
 }

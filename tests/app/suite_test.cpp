@@ -84,7 +84,13 @@ TEST_F(Suite, NamesTheFirstPieceFrameAndPixelThatDiffer) {
   const Outcome heavy = run("--against " + (scratch / "earlier"));
   EXPECT_IN("     piece 0 (brick) is the first that differs\n", heavy.out);
   EXPECT_IN("piece 0 (brick) is the first that differs, in its ", heavy.out);
-  EXPECT_IN("no earlier dataset in ", run("--against " + (scratch / "none")).out);
+  std::filesystem::create_directory(scratch / "empty");
+  EXPECT_IN("no earlier dataset in ", run("--against " + (scratch / "empty")).out);
+  for (const char* wrong : {"none", "out"}) {
+    const Outcome refused = run("--against " + (scratch / wrong));
+    EXPECT_EQ(refused.exit_code, 1) << wrong;
+    EXPECT_IN("--against", refused.err);
+  }
 }
 
 TEST_F(Suite, HoldsMetricsToTheirLimits) {

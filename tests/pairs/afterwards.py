@@ -102,7 +102,7 @@ def verify(tools, data):
             body = file.read()
         with open(path, "wb") as file:
             file.write(body.replace(b"0", b"1", 1))
-        tools.rubble("verify", tools.out, "--work", tools.work, "--quiet", "--pile-only", codes=(5,))
+        tools.rubble("verify", tools.out, "--quiet", "--pile-only", codes=(5,))
         with open(path, "wb") as file:
             file.write(body)
 

@@ -48,8 +48,8 @@ Action declare(CommandLine& line) {
   const auto request = std::make_shared<Request>();
   SearchBenchRequest& search_request = request->search;
   add_mission_options(line, search_request.of);
-  line.add("--agent", search_request.agent, "Program of an agent; it reads and writes lines of JSON")
-      .metavar("COMMAND");
+  const Option agent = line.add("--agent", search_request.agent, "Program of an agent; it reads and writes lines of JSON")
+                           .metavar("COMMAND");
   line.add("--baseline", search_request.baselines, "Baseline agent: random, wall, frontier, octomap or oracle; may "
                                                    "be repeated")
       .metavar("NAME");
@@ -58,7 +58,8 @@ Action declare(CommandLine& line) {
                                                   "first answer")
       .shows_default("s")
       .metavar("SECONDS")
-      .within(0.01, 3600.0);
+      .within(0.01, 3600.0)
+      .needs(agent);
   line.add("--out", search_request.of.out, "Output folder")
       .shows_default_text("out/<script>_search")
       .metavar("DIR");

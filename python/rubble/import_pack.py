@@ -1,27 +1,27 @@
 #!/usr/bin/env python3
 """Writes the meshes of a USD or MJCF file as a pack of assets: python -m rubble.import_pack scene.usd -o my_pack
 
-USD needs the package usd-core, MJCF mujoco; both come by pip. Each mesh becomes an OBJ file and an asset with its name; the
-pack is checked by `rubble assets check my_pack`. What is left out is printed. Exit code 1: a file or a mesh that cannot be
-taken, named.
+USD needs the package usd-core, MJCF mujoco; both come by pip. Each mesh becomes an OBJ file and an asset with its name, its
+colours, its pictures and its mass; equal ones become one. The pack is checked by `rubble assets check my_pack`. What is left
+out is printed. Exit code 1: a file or a mesh that cannot be taken, named.
 """
 import argparse
 import math
 import sys
 from pathlib import Path
 
+if __package__:
+    from .import_asset import Notes, PackError, volume
+    from .import_mjcf import MjcfReader
+    from .import_usd import UsdReader
+else:  # the files beside this one, where it is run by its path
+    from import_asset import Notes, PackError, volume  # type: ignore[import-not-found,no-redef,unused-ignore]
+    from import_mjcf import MjcfReader  # type: ignore[import-not-found,no-redef,unused-ignore]
+    from import_usd import UsdReader  # type: ignore[import-not-found,no-redef,unused-ignore]
+
 USD = (".usd", ".usda", ".usdc", ".usdz")
-MOST_VERTICES = 2_000_000
+LIGHTEST, HEAVIEST = 10, 25000  # of an asset of a pack; unit: kg/m3
 FARTHEST = 1e5  # of a corner from the origin; unit: m
-
-
-class PackError(Exception):
-    """What is wrong, with the file and the mesh."""
-
-
-class Asset:
-    def __init__(self, name, vertices, faces, colour=None, mass=None):
-        self.name, self.vertices, self.faces, self.colour, self.mass = name, vertices, faces, colour, mass
 
 
 def word(name):
@@ -30,119 +30,95 @@ def word(name):
     return text if text and not text[0].isdigit() else "mesh_" + text
 
 
-def volume(vertices, faces):
-    """Of a closed mesh, by the tetrahedra of its triangles and the origin."""
-    total = 0.0
-    for face in faces:
-        for i in range(1, len(face) - 1):
-            (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (vertices[face[k]] for k in (0, i, i + 1))
-            total += (ax * (by * cz - bz * cy) - ay * (bx * cz - bz * cx) + az * (bx * cy - by * cx)) / 6
-    return total
-
-
-def read_usd(path, notes):
-    """Each UsdGeom.Mesh, by its transforms below the root's, in metres and Z up."""
-    try:
-        from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics  # type: ignore[import-not-found,unused-ignore]
-    except ImportError as error:
-        raise PackError(f"{path}: needs the package usd-core: pip install usd-core ({error})") from error
-    try:
-        stage = Usd.Stage.Open(str(path))
-    except Tf.ErrorException as error:
-        raise PackError(f"{path}: cannot be read as USD: {str(error).strip().splitlines()[-1]}") from error
-    unit = UsdGeom.GetStageMetersPerUnit(stage)
-    if not 0 < unit < math.inf:
-        raise PackError(f"{path}: metersPerUnit is {unit:g}: expected a length above 0")
-    turn = Gf.Matrix4d(1)
-    if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.y:
-        turn.SetRotate(Gf.Rotation(Gf.Vec3d(1, 0, 0), 90))
-    cache, others = UsdGeom.XformCache(), {}
-    for prim in stage.Traverse(Usd.TraverseInstanceProxies()):
-        if prim.IsA(UsdGeom.Gprim) and not prim.IsA(UsdGeom.Mesh):
-            others[prim.GetTypeName()] = others.get(prim.GetTypeName(), 0) + 1
-        if not prim.IsA(UsdGeom.Mesh):
-            continue
-        mesh, where = UsdGeom.Mesh(prim), f"{path}: {prim.GetPath()}"
-        points, counts, indices = mesh.GetPointsAttr().Get(), mesh.GetFaceVertexCountsAttr().Get(), mesh.GetFaceVertexIndicesAttr().Get()
-        if not points or not counts or not indices:
-            raise PackError(f"{where}: has no points or no faces")
-        if len(points) > MOST_VERTICES:
-            raise PackError(f"{where}: has {len(points)} points: expected {MOST_VERTICES} at most")
-        if sum(counts) != len(indices) or min(counts) < 3 or min(indices) < 0 or max(indices) >= len(points):
-            raise PackError(f"{where}: its faceVertexCounts and faceVertexIndices do not fit its {len(points)} points")
-        if mesh.GetSubdivisionSchemeAttr().Get() not in (UsdGeom.Tokens.none, None):
-            notes.append(f"{prim.GetPath()}: subdivision: its cage is taken")
-        # Scales apply; where the mesh stands does not: an asset has its own origin.
-        to_world = cache.GetLocalToWorldTransform(prim) * turn
-        to_world.SetTranslateOnly(Gf.Vec3d(0))
-        vertices = [tuple(unit * x for x in to_world.Transform(Gf.Vec3d(p))) for p in points]
-        flipped = (mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded) != (to_world.GetDeterminant3() < 0)
-        faces, at = [], 0
-        for count in counts:
-            face = list(indices[at:at + count])
-            faces.append(face[::-1] if flipped else face)
-            at += count
-        colours = mesh.GetDisplayColorAttr().Get()
-        mass = UsdPhysics.MassAPI(prim).GetMassAttr().Get() if prim.HasAPI(UsdPhysics.MassAPI) else None
-        name = prim.GetName() if prim.GetName().lower() not in ("mesh", "geometry", "visual", "collision") else prim.GetParent().GetName()
-        yield Asset(name, vertices, faces, tuple(colours[0]) if colours else None, mass or None)
-    for kind, count in sorted(others.items()):
-        notes.append(f"{count} {kind}: only meshes are taken")
-
-
-def read_mjcf(path, notes):
-    """Each mesh of the compiled model, in the frame of its file."""
-    try:
-        import mujoco  # type: ignore[import-not-found,unused-ignore]
-        import numpy
-    except ImportError as error:
-        raise PackError(f"{path}: needs the package mujoco: pip install mujoco ({error})") from error
-    try:
-        model = mujoco.MjModel.from_xml_path(str(path))
-    except (ValueError, mujoco.FatalError) as error:
-        raise PackError(f"{path}: cannot be read as MJCF: {' '.join(str(error).split())}") from error
-    for i in range(model.nmesh):
-        first, count = model.mesh_vertadr[i], model.mesh_vertnum[i]
-        rotation = numpy.zeros(9)
-        mujoco.mju_quat2Mat(rotation, model.mesh_quat[i])
-        vertices = model.mesh_vert[first:first + count].astype(float) @ rotation.reshape(3, 3).T + model.mesh_pos[i]
-        face, faces = model.mesh_faceadr[i], model.mesh_facenum[i]
-        users = [g for g in range(model.ngeom) if model.geom_type[g] == mujoco.mjtGeom.mjGEOM_MESH and model.geom_dataid[g] == i]
-        colour = None
-        if users:
-            material = model.geom_matid[users[0]]
-            colour = tuple(float(c) for c in (model.mat_rgba[material] if material >= 0 else model.geom_rgba[users[0]])[:3])
-        yield Asset(model.mesh(i).name or f"mesh_{i}", [tuple(map(float, v)) for v in vertices],
-                    [list(map(int, f)) for f in model.mesh_face[face:face + faces]], colour)
-    shapes = sum(1 for g in range(model.ngeom) if model.geom_type[g] != mujoco.mjtGeom.mjGEOM_MESH)
-    if shapes:
-        notes.append(f"{shapes} geoms that are no meshes")
-
-
 def checked(path, assets):
     """The assets, or an error that names the mesh whose corner, colour or mass is no number."""
     for asset in assets:
+        where = f"{path}: {asset.name}"
         for i, corner in enumerate(asset.vertices):
             if not all(abs(x) < FARTHEST for x in corner):
-                raise PackError(f"{path}: {asset.name}: corner {i} is at {', '.join(f'{x:g}' for x in corner)} m: expected numbers within {FARTHEST:g}")
-        if asset.colour and not all(0 <= c < math.inf for c in asset.colour):
-            raise PackError(f"{path}: {asset.name}: its colour is {', '.join(f'{c:g}' for c in asset.colour)}: expected numbers from 0 to 1")
-        if asset.mass is not None and not 0 < asset.mass < math.inf:
-            raise PackError(f"{path}: {asset.name}: its mass is {asset.mass:g} kg: expected a number above 0")
+                raise PackError(f"{where}: corner {i} is at {', '.join(f'{x:g}' for x in corner)} m: expected numbers within {FARTHEST:g}")
+        if not all(abs(x) < FARTHEST for place in asset.corners for x in place):
+            raise PackError(f"{where}: a texture coordinate is no number within {FARTHEST:g}")
+        for look in asset.looks:
+            if look.colour and not all(0 <= c < math.inf for c in look.colour):
+                raise PackError(f"{where}: its colour is {', '.join(f'{c:g}' for c in look.colour)}: expected numbers from 0 to 1")
+            for name, value in (("metallic", look.metal), ("roughness", look.roughness)):
+                if value is not None and not 0 <= value <= 1:
+                    raise PackError(f"{where}: its {name} is {value:g}: expected a number from 0 to 1")
+            if look.placed and not all(abs(x) < FARTHEST for x in look.placed):
+                raise PackError(f"{where}: the scale or offset of its picture is no number within {FARTHEST:g}")
+        for value, unit in ((asset.mass, "mass"), (asset.density, "density")):
+            if value is not None and not 0 < value < math.inf:
+                raise PackError(f"{where}: its {unit} is {value:g}: expected a number above 0")
         yield asset
 
 
+def weigh(assets, notes):
+    """Turns masses into densities. What shares a mass is of one density."""
+    spaces = [volume(asset.vertices, asset.faces) for asset in assets]
+    shared = {}
+    for asset, space in zip(assets, spaces):
+        if asset.mass is not None:
+            shared[asset.shares] = shared.get(asset.shares, 0) + space
+    for asset in assets:
+        if asset.mass is None:
+            continue
+        if shared[asset.shares] > 1e-9:
+            asset.density = asset.mass / shared[asset.shares]
+        else:
+            notes.add(f"{asset.name}: its mass, because it encloses no space")
+    for asset in assets:
+        if asset.density is not None and not LIGHTEST <= asset.density <= HEAVIEST:
+            notes.add(f"{asset.name}: its density of {asset.density:.3g} kg/m3: expected {LIGHTEST} to {HEAVIEST}")
+            asset.density = None
+
+
+def single(assets, notes):
+    """Each once: a stage may hold the same brick a hundred times."""
+    first = {}
+    for asset in assets:
+        equal = first.setdefault(asset.key(), asset)
+        if equal is asset:
+            yield asset
+        else:
+            notes.add(f"a mesh that equals {equal.name}")
+
+
+def write_look(folder, stem, number, look):
+    """The lines of MTL; pictures become files."""
+    lines = [f"newmtl surface_{number}"]
+    colour = look.colour or ((1, 1, 1) if look.picture else (0.5, 0.5, 0.5))
+    lines.append("Kd %.6f %.6f %.6f" % tuple(min(c, 1) for c in colour))
+    lines += [f"{key} {value:.6f}" for key, value in (("Pm", look.metal), ("Pr", look.roughness)) if value is not None]
+    placed = "-s %.9g %.9g 1 -o %.9g %.9g 0 " % look.placed if look.placed else ""
+    for key, picture in (("map_Kd", look.picture), ("norm", look.bumps)):
+        if picture:
+            name = f"{stem}_{number}_{'colour' if key == 'map_Kd' else 'normal'}{picture[0]}"
+            (folder / name).write_bytes(picture[1])
+            lines.append(f"{key} {placed}{name}")
+    return lines
+
+
 def write_obj(path, asset):
-    lines = [f"# From {asset.name} by rubble.import_pack"]
-    if asset.colour:
-        lines += [f"mtllib {path.stem}.mtl", "usemtl surface"]
-        path.with_suffix(".mtl").write_text("newmtl surface\nKd %.6f %.6f %.6f\n" % tuple(min(c, 1) for c in asset.colour), encoding="ascii")
+    lines = [f"# From {' '.join(asset.name.split())} by rubble.import_pack"]
+    is_plain = all(look.key() == (None,) * 6 for look in asset.looks)
+    if not is_plain:
+        library = [line for i, look in enumerate(asset.looks) for line in write_look(path.parent, path.stem, i, look)]
+        path.with_suffix(".mtl").write_text("\n".join(library) + "\n", encoding="ascii")
+        lines.append(f"mtllib {path.stem}.mtl")
     lines += ["v %.9g %.9g %.9g" % v for v in asset.vertices]
-    lines += ["f " + " ".join(str(i + 1) for i in face) for face in asset.faces]
-    path.write_text("\n".join(lines) + "\n", encoding="ascii")
+    lines += ["vt %.9g %.9g" % place for place in asset.corners]
+    corner, current = 0, None
+    for face, look in zip(asset.faces, asset.look_of):
+        if look != current and not is_plain:
+            lines.append(f"usemtl surface_{look}")
+            current = look
+        lines.append("f " + " ".join(f"{v + 1}/{corner + i + 1}" if asset.corners else str(v + 1) for i, v in enumerate(face)))
+        corner += len(face)
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def write_pack(folder, assets, options, source):
+def write_pack(folder, assets, options):
     folder.mkdir(parents=True, exist_ok=True)
     if (folder / "pack.lua").exists() and not options.force:
         raise PackError(f"{folder}/pack.lua: is there already: --force replaces it")
@@ -155,16 +131,9 @@ def write_pack(folder, assets, options, source):
         names.add(name)
         write_obj(folder / (name + ".obj"), asset)
         entry = f'    {{ name = "{name}", mesh = "{name}.obj", collision = "decompose", material = "{options.material}"'
-        if asset.mass:
-            space = abs(volume(asset.vertices, asset.faces))
-            if space > 1e-9:
-                entry += f", density = {asset.mass / space:.6g}"
-        entries.append(entry + " },")
-    if not entries:
-        raise PackError(f"{source}: has no mesh")
-    text = f"-- From {source.name} by rubble.import_pack.\nreturn pack {{\n  name = \"{word(options.name or folder.name)}\",\n  assets = {{\n"
+        entries.append(entry + (f", density = {asset.density:.6g}" if asset.density is not None else "") + " },")
+    text = f"-- From {options.file.name} by rubble.import_pack.\nreturn pack {{\n  name = \"{word(options.name or folder.name)}\",\n  assets = {{\n"
     (folder / "pack.lua").write_text(text + "\n".join(entries) + "\n  },\n}\n", encoding="utf-8")
-    return len(entries)
 
 
 def main(arguments=None):
@@ -174,7 +143,7 @@ def main(arguments=None):
     parser.add_argument("--name", help="of the pack; default: that of the folder")
     parser.add_argument("--material", default="reinforced_concrete", help="of all assets; default: reinforced_concrete")
     parser.add_argument("--force", action="store_true", help="replace a pack that is there")
-    notes = []
+    notes = Notes()
     try:
         options = parser.parse_args(arguments)
     except SystemExit as end:  # 2, that of argparse, is another code in all other commands
@@ -183,21 +152,26 @@ def main(arguments=None):
         if not options.file.is_file():
             raise PackError(f"{options.file}: no such file")
         if options.file.suffix.lower() in USD:
-            assets = list(checked(options.file, read_usd(options.file, notes)))
+            reader = UsdReader(options.file, notes)
         elif options.file.suffix.lower() == ".xml":
-            assets = list(checked(options.file, read_mjcf(options.file, notes)))
+            reader = MjcfReader(options.file, notes)
         else:
             raise PackError(f"{options.file}: expected {', '.join(USD)} or .xml")
-        count = write_pack(options.out, assets, options, options.file)
+        assets = list(checked(options.file, reader.read()))
+        weigh(assets, notes)
+        assets = list(single(assets, notes))
+        if not assets:
+            raise PackError("; left out: ".join([f"{options.file}: has no mesh", *notes.lines()]))
+        write_pack(options.out, assets, options)
     except (PackError, OSError) as error:
         print(f"rubble.import_pack: {error}", file=sys.stderr)
         return 1
     except Exception as error:  # of a reader that trusts its file
         print(f"rubble.import_pack: {options.file}: cannot be taken: {type(error).__name__}: {' '.join(str(error).split())}", file=sys.stderr)
         return 1
-    for note in notes:
+    for note in notes.lines():
         print(f"{options.file}: left out: {note}", file=sys.stderr)
-    print(f"{options.out}: {count} assets; check them with `rubble assets check {options.out}`")
+    print(f"{options.out}: {len(assets)} assets; check them with `rubble assets check {options.out}`")
     return 0
 
 

@@ -14,6 +14,7 @@ import ifcopenshell.api.project
 import ifcopenshell.api.root
 import ifcopenshell.api.spatial
 import ifcopenshell.api.unit
+import ifcopenshell.util.placement
 import numpy as np
 
 PROGRAM, FOLDER = sys.argv[1], Path(sys.argv[2])
@@ -119,6 +120,48 @@ def ifc_houses_become_plans():
         check_in_rubble()
 
 
+def what_plans_lack_is_named():
+    """A hill of 100 m, a wall of two storeys with a window in each, a parapet, a floor with a stairwell and an L, a stair, a sofa."""
+    house = House().build()
+    for storey, level in zip(house.storeys, (100, 103, 105.8)):
+        ifcopenshell.api.geometry.edit_object_placement(house.model, product=storey, matrix=house.frame(0, 0, level, 0), is_si=True)
+    for kind in ("IfcWall", "IfcColumn", "IfcSlab", "IfcOpeningElement"):
+        for entity in house.model.by_type(kind):
+            frame = ifcopenshell.util.placement.get_local_placement(entity.ObjectPlacement)
+            frame[:3, 3] /= 1000
+            frame[2, 3] += 100
+            ifcopenshell.api.geometry.edit_object_placement(house.model, product=entity, matrix=frame, is_si=True)
+    high = house.add("IfcWall", "high", 0, house.frame(0, 2.5, 100, 0), (8, 0.2, 5.8))
+    for sill in (101, 104):
+        opening = house.add("IfcOpeningElement", "o", None, house.frame(5, 2.5, sill, 0), (1, 0.5, 1))
+        ifcopenshell.api.feature.add_feature(house.model, feature=opening, element=high)
+        window = house.add("IfcWindow", "w", 0, house.frame(5, 2.5, sill, 0), (1, 0.1, 1))
+        ifcopenshell.api.feature.add_filling(house.model, opening=opening, element=window)
+    house.add("IfcWall", "parapet", 1, house.frame(1, 1, 103, 0), (2, 0.2, 1.0))
+    floor = house.model.by_type("IfcSlab")[0]
+    well = house.add("IfcOpeningElement", "well", None, house.frame(1, 1, 102.7, 0), (1, 2, 0.5))
+    ifcopenshell.api.feature.add_feature(house.model, feature=well, element=floor)
+    house.add("IfcStair", "stair", 0, house.frame(1, 1, 100, 0), (1, 2, 2))
+    house.add("IfcFurniture", "sofa", 0, house.frame(1, 1, 100, 0), (1, 2, 1))
+    house.add("IfcBeam", "low beam", 0, house.frame(1, 1, 101, 0), (3, 0.2, 0.4))
+    column = house.add("IfcColumn", "round", 0, house.frame(6, 1, 100, 0), (0.4, 0.4, 3))
+    solid = column.Representation.Representations[0].Items[0]
+    solid.SweptArea = house.model.createIfcCircleProfileDef("AREA", None, solid.SweptArea.Position, 200.0)
+    done = subprocess.run([sys.executable, TOOL, house.save("more.ifc"), "-o", FOLDER / "plan.txt"], check=False, text=True, stderr=subprocess.PIPE)
+    need(done.returncode == 0, "%s", done.stderr)
+    plan = [line.split() for line in (FOLDER / "plan.txt").read_text(encoding="ascii").splitlines()]
+    for note in ("IfcWall parapet: is 1.00 m high", "1 IfcStair", "1 IfcFurniture", "IfcBeam low beam: its height of 1.40 m",
+                 "IfcColumn round: its shape, which fills 7"):
+        need(note in done.stderr, "%s in %s", note, done.stderr)
+    need("IfcWindow" not in done.stderr, "windows are those of openings: %s", done.stderr)
+    need([line[1] for line in plan if line[0] == "storey"] == ["3", "2.8"], "storeys on a hill: %s", plan)
+    need(len([line for line in plan if "name=high" in line]) == 2 and not [line for line in plan if "name=parapet" in line], "walls %s", plan)
+    need([line for line in plan if line[:2] == ["window", "5"]] == ["window 5 2.5 6 2.5 1 2".split()] * 2, "windows %s", plan)
+    need([line for line in plan if line[0] == "hole"] == ["hole 1 0 2 2".split()], "the stairwell %s", plan)
+    check_in_rubble()
+    need("--height, --storeys: for drawings alone" in import_plan(FOLDER / "more.ifc", "--height", "4", "--storeys", "2", code=1), "options of DXF")
+
+
 def ifc_mistakes_are_named():
     house = House(30).build().save("turned.ifc")
     error = import_plan(house, code=1)
@@ -186,7 +229,7 @@ def dxf_mistakes_are_named():
 
 def main():
     FOLDER.mkdir(parents=True, exist_ok=True)
-    for check in (ifc_houses_become_plans, ifc_mistakes_are_named, dxf_walls_become_plans, dxf_mistakes_are_named):
+    for check in (ifc_houses_become_plans, what_plans_lack_is_named, ifc_mistakes_are_named, dxf_walls_become_plans, dxf_mistakes_are_named):
         check()
         print("right:", check.__name__)
 

@@ -84,7 +84,7 @@ void RayScene::add_resting() {
     positions.clear();
     for (const PreparedVertex& v : mesh.vertices)
       positions.push_back(Vec3f(piece.world_from_mesh * (Vec3(v.position) * piece.scale)));
-    tree_.append(
+    append_blocks(
         of_mesh.order,
         [&](std::uint32_t t) {
           const auto& v = mesh.triangles[of_mesh.sources[t]].vertices;

@@ -47,6 +47,7 @@ RTCRay ray_of(const BlockRay& ray, float farthest) {
 struct Mesh {
   RTCScene scene = nullptr;
   std::vector<TriangleBlock> blocks;
+  float reach = 0;  // farthest from its origin that a ray begins; unit: m
   Aabb bounds;
 
   Mesh() = default;
@@ -73,14 +74,15 @@ struct Placed {
 
   BlockRay ray_in_mesh(const BlockRay& ray, float time) const {
     Vec3 from(ray.from), direction(ray.direction);
-    if (in_world) return {ray.from, ray.direction, ray.nearest, first_id};
+    if (in_world) return {ray.from, ray.direction, ray.nearest, mesh->reach, first_id};
     if (moves) {
       const Pose now{portable::slerp(first.rotation, last.rotation, double(time)),
                      first.translation + (last.translation - first.translation) * double(time)};
       const Mat3 turn = now.rotation.matrix().transposed() * (1 / scale);
-      return {Vec3f(turn * (from - now.translation)), Vec3f(turn * direction), ray.nearest, first_id};
+      return {Vec3f(turn * (from - now.translation)), Vec3f(turn * direction), ray.nearest, mesh->reach, first_id};
     }
-    return {Vec3f(mesh_from_world * (from - first.translation)), Vec3f(mesh_from_world * direction), ray.nearest, first_id};
+    return {Vec3f(mesh_from_world * (from - first.translation)), Vec3f(mesh_from_world * direction), ray.nearest, mesh->reach,
+            first_id};
   }
 };
 
@@ -102,11 +104,11 @@ constexpr std::size_t kPacket = RayTree::kPacket;
 
 // Rays of a packet, and what is met until now: nothing.
 struct Packet {
-  Packet(const RayTree::Line* lines, std::size_t count, std::uint32_t first_id, RTCRay8& out) {
+  Packet(const RayTree::Line* lines, std::size_t count, const Placed& part, RTCRay8& out) {
     for (std::size_t i = 0; i < kPacket; ++i) {
       valid[i] = i < count ? -1 : 0;
       const RayTree::Line& line = lines[std::min(i, count - 1)];
-      rays[i] = {line.from, line.direction, line.nearest, first_id};
+      rays[i] = {line.from, line.direction, line.nearest, part.mesh->reach, part.first_id};
       hits[i].distance = line.farthest;
       out.org_x[i] = line.from.x, out.org_y[i] = line.from.y, out.org_z[i] = line.from.z;
       out.dir_x[i] = line.direction.x, out.dir_y[i] = line.direction.y, out.dir_z[i] = line.direction.z;
@@ -127,12 +129,13 @@ const BlockFunctions& functions() {
 RTCRayN* rays_in(const RTCIntersectFunctionNArguments* args) { return RTCRayHitN_RayN(args->rayhit, args->N); }
 
 void bound_block(const RTCBoundsFunctionArguments* args) {
-  write_bounds(tree_bounds(static_cast<const TriangleBlock*>(args->geometryUserPtr)[args->primID]), *args->bounds_o);
+  const Mesh& mesh = *static_cast<const Mesh*>(args->geometryUserPtr);
+  write_bounds(tree_bounds(mesh.blocks[args->primID], mesh.reach), *args->bounds_o);
 }
 // A processor may lack packets of this size: Embree then calls with parts of them. The number of a ray is in `id`.
 void meet_block(const RTCIntersectFunctionNArguments* args) {
   const auto& query = *static_cast<const BlockQuery*>(args->context);
-  const TriangleBlock& block = static_cast<const TriangleBlock*>(args->geometryUserPtr)[args->primID];
+  const TriangleBlock& block = static_cast<const Mesh*>(args->geometryUserPtr)->blocks[args->primID];
   for (unsigned i = 0; i < args->N; ++i) {
     if (!args->valid[i]) continue;
     const unsigned ray = RTCRayN_id(rays_in(args), args->N, i);
@@ -142,7 +145,7 @@ void meet_block(const RTCIntersectFunctionNArguments* args) {
 }
 void hide_by_block(const RTCOccludedFunctionNArguments* args) {
   const auto& query = *static_cast<const BlockQuery*>(args->context);
-  const TriangleBlock& block = static_cast<const TriangleBlock*>(args->geometryUserPtr)[args->primID];
+  const TriangleBlock& block = static_cast<const Mesh*>(args->geometryUserPtr)->blocks[args->primID];
   for (unsigned i = 0; i < args->N; ++i) {
     if (!args->valid[i]) continue;
     const unsigned ray = RTCRayN_id(args->ray, args->N, i);
@@ -239,12 +242,12 @@ struct RayTree::Embree {
     rtcSetSceneFlags(made, RTC_SCENE_FLAG_ROBUST);
     return made;
   }
-  template <class Element>
-  RTCGeometry attach(RTCScene to, const std::vector<Element>& elements, RTCBoundsFunction bound,
-                     RTCIntersectFunctionN meet, RTCOccludedFunctionN hide) const {
+  // elements: what the functions know them by.
+  RTCGeometry attach(RTCScene to, void* elements, std::size_t count, RTCBoundsFunction bound, RTCIntersectFunctionN meet,
+                     RTCOccludedFunctionN hide) const {
     const RTCGeometry made = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(made, unsigned(elements.size()));
-    rtcSetGeometryUserData(made, const_cast<Element*>(elements.data()));
+    rtcSetGeometryUserPrimitiveCount(made, unsigned(count));
+    rtcSetGeometryUserData(made, elements);
     rtcSetGeometryBoundsFunction(made, bound, nullptr);
     rtcSetGeometryIntersectFunction(made, meet);
     rtcSetGeometryOccludedFunction(made, hide);
@@ -253,12 +256,13 @@ struct RayTree::Embree {
     rtcReleaseGeometry(made);  // the scene keeps it
     return made;
   }
+  std::uint32_t add_mesh(std::vector<TriangleBlock> blocks, double reach);
   // Of all parts, anew where their number has changed.
   void build() {
     if (parts_in_scene != placed.data() || count_in_scene != placed.size()) {
       if (scene) rtcReleaseScene(scene);
       scene = new_scene();
-      geometry = attach(scene, placed, bound_part, meet_part, hide_by_part);
+      geometry = attach(scene, placed.data(), placed.size(), bound_part, meet_part, hide_by_part);
       parts_in_scene = placed.data(), count_in_scene = placed.size();
     } else {
       rtcCommitGeometry(geometry);
@@ -281,35 +285,34 @@ struct RayTree::Embree {
 RayTree::RayTree(double reach) : reach_(std::max(1.0, reach)), embree_(std::make_unique<Embree>()) {}
 RayTree::~RayTree() = default;
 
-std::uint32_t RayTree::add_mesh(std::vector<TriangleBlock> blocks) {
+std::uint32_t RayTree::Embree::add_mesh(std::vector<TriangleBlock> blocks, double reach) {
   if (blocks.empty()) return kNone;
   auto mesh = std::make_unique<Mesh>();
-  mesh->blocks = std::move(blocks);
+  mesh->blocks = std::move(blocks), mesh->reach = float(reach);
   for (const TriangleBlock& block : mesh->blocks) {
-    const Aabb box = tree_bounds(block);
+    const Aabb box = tree_bounds(block, mesh->reach);
     mesh->bounds.include(box.min), mesh->bounds.include(box.max);
   }
-  mesh->scene = embree_->new_scene();
-  embree_->attach(mesh->scene, mesh->blocks, bound_block, meet_block, hide_by_block);
+  mesh->scene = new_scene();
+  attach(mesh->scene, mesh.get(), mesh->blocks.size(), bound_block, meet_block, hide_by_block);
   rtcCommitScene(mesh->scene);
-  embree_->meshes.emplace(embree_->next_mesh, std::move(mesh));
-  return embree_->next_mesh++;
+  meshes.emplace(next_mesh, std::move(mesh));
+  return next_mesh++;
+}
+
+std::uint32_t RayTree::add_mesh(std::vector<TriangleBlock> blocks) {
+  return embree_->add_mesh(std::move(blocks), kFarAway * reach_);
 }
 
 std::uint32_t RayTree::add_mesh(const BlockOrder& order, const TriangleCorners& corners, double smallest_scale) {
   std::vector<TriangleBlock> blocks;
   blocks.reserve(order.ends.size());
+  append_blocks(order, corners, 0, blocks);
   // A ray begins at most kFarAway from the origin, a mesh lies at most once the reach from it.
-  append_blocks(order, corners, 0, float((kFarAway + 1) * reach_ / smallest_scale), blocks);
-  return add_mesh(std::move(blocks));
+  return embree_->add_mesh(std::move(blocks), (kFarAway + 1) * reach_ / smallest_scale);
 }
 
 void RayTree::drop_mesh(std::uint32_t mesh) { embree_->meshes.erase(mesh); }
-
-void RayTree::append(const BlockOrder& order, const TriangleCorners& corners, std::uint32_t first_id,
-                     std::vector<TriangleBlock>& blocks) const {
-  append_blocks(order, corners, first_id, float(kFarAway * reach_), blocks);
-}
 
 void RayTree::commit() {
   Embree& e = *embree_;
@@ -367,10 +370,10 @@ RayTree::Hit RayTree::meet(const Line& line) const {
   const float start = find_near_start(line, kFarAway * reach_);
   const bool in_two = start > line.nearest && start < line.farthest;
   if (in_two) hit.distance = start;
-  cast({line.from, line.direction, line.nearest});
+  cast({line.from, line.direction, line.nearest, 0});
   if (!in_two || hit.triangle != kNone) return hit;
   hit.distance = line.farthest - start;
-  cast({line.from + line.direction * start, line.direction, 0});
+  cast({line.from + line.direction * start, line.direction, 0, 0});
   hit.distance += start;
   return hit;
 }
@@ -389,9 +392,9 @@ bool RayTree::hides(const Line& line) const {
   };
   const float start = find_near_start(line, kFarAway * reach_);
   if (start <= line.nearest || start >= line.farthest)
-    return cast({line.from, line.direction, line.nearest}, line.farthest);
-  return cast({line.from, line.direction, line.nearest}, start) ||
-         cast({line.from + line.direction * start, line.direction, 0}, line.farthest - start);
+    return cast({line.from, line.direction, line.nearest, 0}, line.farthest);
+  return cast({line.from, line.direction, line.nearest, 0}, start) ||
+         cast({line.from + line.direction * start, line.direction, 0, 0}, line.farthest - start);
 }
 
 // Packets are for what rests alone: each ray has its own place among what moves.
@@ -409,7 +412,7 @@ void RayTree::meet_packet(const Line* lines, std::size_t count, Hit* hits) const
   }
   const Embree& e = *embree_;
   RTCRayHit8 asked;
-  Packet packet(lines, count, e.alone->first_id, asked.ray);
+  Packet packet(lines, count, *e.alone, asked.ray);
   for (std::size_t i = 0; i < kPacket; ++i) asked.hit.geomID[i] = asked.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   BlockQuery query(packet.rays, packet.hits, true);
   embree_intersect(e.alone->mesh->scene, packet.valid, asked, query);
@@ -426,7 +429,7 @@ void RayTree::hide_packet(const Line* lines, std::size_t count, std::uint8_t* hi
   }
   const Embree& e = *embree_;
   RTCRay8 asked;
-  Packet packet(lines, count, e.alone->first_id, asked);
+  Packet packet(lines, count, *e.alone, asked);
   BlockQuery query(packet.rays, packet.hits, true);
   embree_occlude(e.alone->mesh->scene, packet.valid, asked, query);
   for (std::size_t i = 0; i < count; ++i) hidden[i] = asked.tfar[i] < 0;

@@ -43,11 +43,8 @@ class RayTree {
   // smallest_scale: of the parts that will be of the mesh. Numbers of triangles: as corners() has them. A mesh without
   // triangles is none: kNone. Throws RunError where memory is short.
   std::uint32_t add_mesh(const BlockOrder& order, const TriangleCorners& corners, double smallest_scale = 1);
-  std::uint32_t add_mesh(std::vector<TriangleBlock> blocks);
+  std::uint32_t add_mesh(std::vector<TriangleBlock> blocks);  // whose frame is the world's
   void drop_mesh(std::uint32_t mesh);  // no part is of it any more
-  // Blocks of a mesh whose frame is the world's.
-  void append(const BlockOrder& order, const TriangleCorners& corners, std::uint32_t first_id,
-              std::vector<TriangleBlock>& blocks) const;
 
   // Changes take effect at commit(). Not while another thread casts.
   std::vector<Part>& parts() { return parts_; }

@@ -19,8 +19,6 @@ namespace {
 
 constexpr std::uint32_t kSize = TriangleBlock::kSize;
 constexpr std::uint32_t kManyTriangles = 4096;  // above, halves are good enough: sorting takes long
-// Rounding of where a ray meets a plane: four halves of a unit in the last place of their distance.
-constexpr float kRounding = 2.5e-7f;
 
 struct Box {
   Vec3f low{3e38f, 3e38f, 3e38f}, high{-3e38f, -3e38f, -3e38f};
@@ -117,11 +115,12 @@ float inverse(float x) { return 1 / (std::fabs(x) > 1e-18f ? x : std::copysign(1
 
 }  // namespace
 
-BlockRay::BlockRay(const Vec3f& from_, const Vec3f& direction_, float nearest_, std::uint32_t first_id_)
+BlockRay::BlockRay(const Vec3f& from_, const Vec3f& direction_, float nearest_, float reach_, std::uint32_t first_id_)
     : from(from_),
       direction(direction_),
       inverse(rubble::inverse(direction_.x), rubble::inverse(direction_.y), rubble::inverse(direction_.z)),
       nearest(nearest_),
+      reach(reach_),
       first_id(first_id_) {}
 
 const std::vector<BlockFunctions>& block_functions() {
@@ -138,34 +137,30 @@ const std::vector<BlockFunctions>& block_functions() {
 
 BlockOrder order_blocks(std::uint32_t count, const TriangleCorners& corners) { return BlockMaker(count, corners).run(); }
 
-void append_blocks(const BlockOrder& order, const TriangleCorners& corners, std::uint32_t first_id, float reach,
+void append_blocks(const BlockOrder& order, const TriangleCorners& corners, std::uint32_t first_id,
                    std::vector<TriangleBlock>& blocks) {
   std::uint32_t begin = 0;
   for (const std::uint32_t end : order.ends) {
     TriangleBlock& block = blocks.emplace_back();
-    float farthest = reach;
     for (std::uint32_t i = 0; i < kSize; ++i) {
       const bool there = begin + i < end;
       const std::uint32_t triangle = order.triangles[there ? begin + i : begin];
       const std::array<Vec3f, 3> of = corners(triangle);
       block.ids[i] = there ? first_id + triangle : TriangleBlock::kNone;
       for (int corner = 0; corner < 3; ++corner)
-        for (int axis = 0; axis < 3; ++axis) {
-          block.corners[corner][axis][i] = of[there ? std::size_t(corner) : 0][axis];
-          farthest = std::max(farthest, reach + std::fabs(of[std::size_t(corner)][axis]));
-        }
+        for (int axis = 0; axis < 3; ++axis) block.corners[corner][axis][i] = of[there ? std::size_t(corner) : 0][axis];
     }
-    block.margin = 2 * kRounding * farthest;
     begin = end;
   }
 }
 
-Aabb tree_bounds(const TriangleBlock& block) {
+Aabb tree_bounds(const TriangleBlock& block, float reach) {
   Box box;
   for (std::uint32_t i = 0; i < kSize; ++i)
     for (const auto& corner : block.corners) box.include({corner[0][i], corner[1][i], corner[2][i]});
   // Three times: once of the block's own, twice for what a tree rounds.
-  const double more = 3.0 * double(block.margin);
+  const Vec3f far = max(box.high, box.low * -1.0f);
+  const double more = 3.0 * double(TriangleBlock::margin(reach, std::max({far.x, far.y, far.z})));
   return {Vec3(box.low) - Vec3(more, more, more), Vec3(box.high) + Vec3(more, more, more)};
 }
 

@@ -18,16 +18,26 @@ struct alignas(32) TriangleBlock {
 
   float corners[3][3][kSize];  // by corner and axis; unit: m. A place without a triangle holds one point three times
   std::uint32_t ids[kSize];    // of the triangles; kNone: no triangle
-  float margin = 0;            // a triangle is met within its bounding box, enlarged by this; unit: m
+
+  // A triangle is met within its bounding box, enlarged by this. reach: farthest from the origin that a ray begins;
+  // farthest: largest coordinate of the block; unit: m, all. Not kept, because a scene has millions of blocks.
+  static float margin(float reach, float farthest) { return 2 * kRounding * (reach + farthest); }
+
+ private:
+  // Of where a ray meets a plane: four halves of a unit in the last place of their distance.
+  static constexpr float kRounding = 2.5e-7f;
 };
+static_assert(sizeof(TriangleBlock) == 320);
 
 struct BlockRay {
   BlockRay() = default;
   // direction: of any length. nearest: unit: lengths of the direction, as all distances along a ray.
-  BlockRay(const Vec3f& from, const Vec3f& direction, float nearest, std::uint32_t first_id = 0);
+  // reach: as TriangleBlock::margin() has it.
+  BlockRay(const Vec3f& from, const Vec3f& direction, float nearest, float reach, std::uint32_t first_id = 0);
 
   Vec3f from, direction, inverse;
   float nearest = 0;           // a hit is not nearer than this
+  float reach = 0;             // farthest from the origin that it may begin; unit: m
   std::uint32_t first_id = 0;  // is added to the numbers of the triangles
 };
 
@@ -57,10 +67,11 @@ struct BlockOrder {
 };
 using TriangleCorners = std::function<std::array<Vec3f, 3>(std::uint32_t triangle)>;
 BlockOrder order_blocks(std::uint32_t count, const TriangleCorners& corners);
-// reach: farthest from the origin that a ray begins; unit: m. Numbers of triangles begin with first_id.
-void append_blocks(const BlockOrder& order, const TriangleCorners& corners, std::uint32_t first_id, float reach,
+// Numbers of triangles begin with first_id.
+void append_blocks(const BlockOrder& order, const TriangleCorners& corners, std::uint32_t first_id,
                    std::vector<TriangleBlock>& blocks);
-// The bounds that a tree has to keep of a block, so that rounding of its own never hides a hit.
-Aabb tree_bounds(const TriangleBlock& block);
+// The bounds that a tree has to keep of a block, so that rounding of its own never hides a hit. reach: of the rays that
+// meet it.
+Aabb tree_bounds(const TriangleBlock& block, float reach);
 
 }  // namespace rubble

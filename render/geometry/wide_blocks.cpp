@@ -39,6 +39,16 @@ RUBBLE_INLINE void clip(Real a, Real b, Real c, float margin, float from, float 
   enter = max(enter, min(low, high)), leave = min(leave, max(low, high));
 }
 
+RUBBLE_INLINE float margin_of(const TriangleBlock& block, float reach) {
+  Real far = real(0);
+  for (const auto& corner : block.corners)
+    for (const auto& axis : corner)
+      for (int first = 0; first < TriangleBlock::kSize; first += kWidth) far = max(far, abs(load(axis + first)));
+  float farthest = 0;
+  for (int i = 0; i < kWidth; ++i) farthest = farthest < far[i] ? far[i] : farthest;
+  return TriangleBlock::margin(reach, farthest);
+}
+
 struct Meeting {
   Mask met;
   Real distance, u, v;
@@ -61,10 +71,11 @@ RUBBLE_INLINE Meeting meet(const TriangleBlock& block, const BlockRay& ray, int 
   out.normal = {-out.normal.x, -out.normal.y, -out.normal.z};
   out.facing = dot(out.normal, direction);
   out.met &= (out.facing != real(0)) & (sum != real(0));
+  const float margin = margin_of(block, ray.reach);
   Real enter = real(-3e38f), leave = real(3e38f);
-  clip(a.x, b.x, c.x, block.margin, ray.from.x, ray.inverse.x, enter, leave);
-  clip(a.y, b.y, c.y, block.margin, ray.from.y, ray.inverse.y, enter, leave);
-  clip(a.z, b.z, c.z, block.margin, ray.from.z, ray.inverse.z, enter, leave);
+  clip(a.x, b.x, c.x, margin, ray.from.x, ray.inverse.x, enter, leave);
+  clip(a.y, b.y, c.y, margin, ray.from.y, ray.inverse.y, enter, leave);
+  clip(a.z, b.z, c.z, margin, ray.from.z, ray.inverse.z, enter, leave);
   out.met &= enter <= leave;
   out.distance = min(max(dot(out.normal, ra) / out.facing, enter), leave);
   out.met &= out.distance >= real(ray.nearest);

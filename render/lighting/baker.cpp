@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t kAlbedos = 4;  // nodes whose mean albedo is that of a point, at most
 constexpr std::size_t kChunk = 256;  // points a job
 constexpr std::uint32_t kPlanned = 64;  // the same, where each has rays of its own number
+constexpr std::size_t kAtOnce = 200000;  // points of pieces whose light is found at once, and the last piece's
 using NodesOfPoint = std::vector<std::uint32_t>;
 
 // Of directions spread evenly, cosine-weighted (Malley's method over a golden-ratio sequence), in an order in which those
@@ -163,37 +164,50 @@ void Baker::solve(const AlbedoAt& albedo, const std::function<void(double)>& pro
 }
 
 void Baker::save(CacheWriter& to) const {
-  std::vector<Solved> solved;
-  for (const Point& p : points_) solved.push_back({p.direct, p.indirect, p.clearance, p.room, p.open});
-  to.put(solved), to.put(first_hits_), to.put(first_cleared_), to.put(albedos_), to.put(far_light_), to.put(far_vectors_);
+  to.put(std::uint64_t(points_.size()));
+  for (const Point& p : points_) to.put(Solved{p.direct, p.indirect, p.clearance, p.room, p.open});
+  to.put(first_hits_), to.put(first_cleared_), to.put(albedos_), to.put(far_light_), to.put(far_vectors_);
 }
 
 bool Baker::restore(CacheReader& from) {
-  std::vector<Solved> solved;
-  from.get(solved), from.get(first_hits_), from.get(first_cleared_), from.get(albedos_), from.get(far_light_);
-  from.get(far_vectors_);
+  std::uint64_t count = 0;
+  from.get(count);
+  if (count != points_.size()) return false;
+  for (Point& p : points_) {
+    Solved solved{};
+    from.get(solved);
+    p.direct = solved.direct, p.indirect = solved.indirect;
+    p.clearance = solved.clearance, p.room = solved.room, p.open = std::uint8_t(solved.open);
+  }
+  from.get(first_hits_), from.get(first_cleared_), from.get(albedos_), from.get(far_light_), from.get(far_vectors_);
   const std::size_t far = light_.far.empty() ? 0 : points_.size();
-  if (!from.whole() || solved.size() != points_.size() || albedos_.size() != points_.size() ||
-      first_hits_.size() != points_.size() * first_spokes_.size() || far_light_.size() != far || far_vectors_.size() != far ||
-      first_cleared_.size() != (sheets_.any() ? first_hits_.size() : 0))
+  if (!from.whole() || albedos_.size() != points_.size() || first_hits_.size() != points_.size() * first_spokes_.size() ||
+      far_light_.size() != far || far_vectors_.size() != far ||
+      first_cleared_.size() != (sheets_.any() ? first_hits_.size() : 0)) {
+    for (Point& p : points_) p.open = 0;  // trace() adds to it
     return false;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    Point& p = points_[i];
-    p.direct = solved[i].direct, p.indirect = solved[i].indirect;
-    p.clearance = solved[i].clearance, p.room = solved[i].room, p.open = solved[i].open;
   }
   find_substitutes();
   update_radiance();
   return true;
 }
 
+// A few pieces at a time: what is known of a point meanwhile takes hundreds of bytes.
 void Baker::light_pieces(const std::vector<std::uint32_t>& pieces, LightTable& nodes) {
   rays_ = &scene_rays_.solid();
   std::vector<Piece> work;
+  std::size_t points = 0;
   for (const std::uint32_t number : pieces) {
     const std::uint32_t first = first_point_[number], end = std::uint32_t(end_point(number));
     work.push_back({number, first, end, std::vector<Found>(end - first)});
+    points += end - first;
+    if (points < kAtOnce && number != pieces.back()) continue;
+    light_at_once(work, nodes);
+    work.clear(), points = 0;
   }
+}
+
+void Baker::light_at_once(std::vector<Piece>& work, LightTable& nodes) const {
   parallel_for(work.size(), options_.threads, [&](std::size_t k) { plan(work[k]); });
   struct Job {
     Piece* piece;

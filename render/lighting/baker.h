@@ -121,6 +121,7 @@ class Baker {
   // What comes along a first ray that meets a surface.
   const Vec3f& radiance_at(std::uint32_t hit) const { return radiance_[hit & ~BakeLinks::kClosed]; }
   void fill_closed();
+  void light_at_once(std::vector<Piece>& work, LightTable& nodes) const;
   void store_nodes(const Piece& piece, LightTable& nodes) const;
 
   // baker_gather.cpp
@@ -137,7 +138,7 @@ class Baker {
   Vec3f find_far(Point& p) const;        // adds it to the direct light; the vector of it, as Arrived::vector
   void gather_first(std::size_t point);  // by its first rays
   Sum first_sum(std::size_t point) const;
-  void plan(Piece& piece);
+  void plan(Piece& piece) const;
   Regions look_about(Piece& piece) const;
   float bright_nearness(std::size_t point) const;
   int rounds_for(const Point& p, float noise_left, const Sum& about) const;

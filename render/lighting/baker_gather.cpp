@@ -309,7 +309,7 @@ float Baker::bright_nearness(std::size_t i) const {
   return sum;
 }
 
-void Baker::plan(Piece& piece) {
+void Baker::plan(Piece& piece) const {
   const Regions regions = look_about(piece);
   find_neighbours(piece);
   for (const auto& [cell, region] : regions)

@@ -107,14 +107,17 @@ const BlockOrder& RayWorld::Tree::order_of(const TriangleMesh& mesh) {
 
 RayWorld::Tree::Merged RayWorld::Tree::merge(const std::vector<const SceneInstance*>& instances, std::uint32_t part) {
   Merged merged;
+  std::size_t count = 0;  // a scene has millions: a vector that grows would take twice the memory
+  for (const SceneInstance* piece : instances) count += order_of(scene_meshes.at(piece->mesh)->levels.front()).ends.size();
   std::vector<TriangleBlock> blocks;
+  blocks.reserve(count);
   std::vector<Vec3f> positions;
   for (const SceneInstance* piece : instances) {
     const TriangleMesh& mesh = scene_meshes.at(piece->mesh)->levels.front();
     positions.clear();
     for (const Vec3f& p : mesh.positions)
       positions.push_back(Vec3f(piece->world_from_body * (Vec3(p) * double(piece->scale))));
-    tree.append(
+    append_blocks(
         order_of(mesh),
         [&](std::uint32_t t) {
           const auto& v = mesh.triangles[t];
@@ -126,7 +129,7 @@ RayWorld::Tree::Merged RayWorld::Tree::merge(const std::vector<const SceneInstan
     merged.ends.push_back(std::uint32_t(merged.looks.size()));
     merged.pieces.push_back(std::int32_t(piece->id));
   }
-  tree.parts()[part].mesh = tree.add_mesh(blocks);
+  tree.parts()[part].mesh = tree.add_mesh(std::move(blocks));
   return merged;
 }
 

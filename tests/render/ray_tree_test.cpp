@@ -45,6 +45,8 @@ Triangles make_soup(std::uint64_t seed) {
 }
 
 // At random; within the planes of faces, along their edges, and past corners.
+constexpr double kReach = 7;
+
 RayTree::Line make_line(RandomStream& random, const Triangles& soup, int i) {
   RayTree::Line line;
   line.from = random_point(random, i % 11 == 0 ? 60 : 4), line.direction = random_point(random, 1), line.farthest = 200;
@@ -59,7 +61,7 @@ RayTree::Line make_line(RandomStream& random, const Triangles& soup, int i) {
 BlockHit meet_one_by_one(const std::vector<TriangleBlock>& blocks, const BlockFunctions& functions, const RayTree::Line& line) {
   BlockHit hit;
   hit.distance = line.farthest;
-  const BlockRay ray(line.from, line.direction, line.nearest);
+  const BlockRay ray(line.from, line.direction, line.nearest, float(2 * kReach));
   for (const TriangleBlock& block : blocks) functions.meet(block, ray, hit);
   return hit;
 }
@@ -71,14 +73,12 @@ std::uint64_t hash_of(const BlockHit& hit) {
   return hash.digest();
 }
 
-constexpr double kReach = 7;
-
 TEST(RayTree, FindsTheHitOfAllTrianglesInTurn) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Triangles soup = make_soup(seed);
     RayTree tree(kReach);
     std::vector<TriangleBlock> blocks;
-    tree.append(order_blocks(std::uint32_t(soup.size()), corners_of(soup)), corners_of(soup), 0, blocks);
+    append_blocks(order_blocks(std::uint32_t(soup.size()), corners_of(soup)), corners_of(soup), 0, blocks);
     tree.parts().emplace_back().mesh = tree.add_mesh(blocks);
     tree.commit();
     std::reverse(blocks.begin(), blocks.end());
@@ -107,7 +107,7 @@ TEST(RayTree, HasTheSameBitsInPackets) {
   const Triangles soup = make_soup(9);
   RayTree tree(kReach);
   std::vector<TriangleBlock> blocks;
-  tree.append(order_blocks(std::uint32_t(soup.size()), corners_of(soup)), corners_of(soup), 0, blocks);
+  append_blocks(order_blocks(std::uint32_t(soup.size()), corners_of(soup)), corners_of(soup), 0, blocks);
   tree.parts().emplace_back().mesh = tree.add_mesh(blocks);
   tree.commit();
   RandomStream random(9, "rays");
@@ -131,7 +131,7 @@ TEST(RayTree, HasTheSameBitsInPackets) {
 TEST(RayTree, HasTheSameBitsWithEachInstructionSet) {
   const Triangles soup = make_soup(4);
   std::vector<TriangleBlock> blocks;
-  append_blocks(order_blocks(std::uint32_t(soup.size()), corners_of(soup)), corners_of(soup), 0, 14, blocks);
+  append_blocks(order_blocks(std::uint32_t(soup.size()), corners_of(soup)), corners_of(soup), 0, blocks);
   const BlockFunctions& plain = block_functions().back();
   EXPECT_STREQ(plain.name, "plain");
   for (const BlockFunctions& functions : block_functions()) {
@@ -178,7 +178,7 @@ TEST(RayTree, MeetsWhatMovesWhereItIs) {
         for (std::size_t c = 0; c < 3; ++c) placed.back()[c] = Vec3f(now * (Vec3(t[c]) * part.scale));
       }
       std::vector<TriangleBlock> blocks;
-      append_blocks(order, corners_of(placed), 0, 14, blocks);
+      append_blocks(order, corners_of(placed), 0, blocks);
       const BlockHit hit = meet_one_by_one(blocks, block_functions().front(), line);
       if (hit.triangle != RayTree::kNone) nearest = std::min(nearest, double(hit.distance));
     }
@@ -245,7 +245,7 @@ TEST(RayTree, MeetsWhatIsFarAway) {
   const Triangles soup = make_soup(8);
   RayTree tree(kReach);
   std::vector<TriangleBlock> blocks;
-  tree.append(order_blocks(std::uint32_t(soup.size()), corners_of(soup)), corners_of(soup), 0, blocks);
+  append_blocks(order_blocks(std::uint32_t(soup.size()), corners_of(soup)), corners_of(soup), 0, blocks);
   tree.parts().emplace_back().mesh = tree.add_mesh(blocks);
   tree.commit();
   RandomStream random(8, "rays");

@@ -16,8 +16,9 @@ local function with_speeds(waypoints)
 end
 
 return function(o, waypoints, interpolation)
+  -- "ghost" is the default: left out, a radius that it does not read is named.
   return {
-    rate_hz = o.rate_hz, plan = o.plan, radius = o.radius, interpolation = interpolation or "spline",
+    rate_hz = o.rate_hz, plan = o.plan ~= "ghost" and o.plan or nil, radius = o.radius, interpolation = interpolation or "spline",
     max_speed = o.max_speed, max_acceleration = o.max_acceleration,
     max_turn_rate_deg = o.max_turn_rate_deg, max_jerk = o.max_jerk, smoothing = o.smoothing,
     rest_at_ends = o.rest_at_ends, waypoints = o.plan == "avoid" and with_speeds(waypoints) or waypoints,

@@ -5,7 +5,7 @@ return function(list)
     { "rate_hz", 30, min = 0.001, max = 1000, unit = "Hz", doc = "Frames per second." },
     { "plan", "ghost", choices = { "ghost", "refuse", "avoid" },
       doc = "As `trajectory.plan`: fly through pieces, stop at the first contact, or fly around." },
-    { "radius", 0.1, min = 0.005, max = 10, unit = "m", doc = "As `trajectory.radius`: of the camera's body." },
+    { "radius", nil, type = "number", min = 0.005, max = 10, unit = "m", doc = "As `trajectory.radius`: of the camera's body." },
     { "max_speed", nil, type = "number", above = 0, max = 1000, unit = "m/s", doc = "As `trajectory.max_speed`." },
     { "max_acceleration", nil, type = "number", above = 0, max = 10000, unit = "m/s2",
       doc = "As `trajectory.max_acceleration`." },

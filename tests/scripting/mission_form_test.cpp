@@ -147,6 +147,10 @@ TEST(MissionForm, SaysWhichKeysARobotOfItsKindDoesNotRead) {
 TEST(MissionForm, SaysWhichKeysOfAPathACauseAndAStreetNothingReads) {
   EXPECT_EQ(sentences_of("trajectory = { radius = 0.3 }"),
             "m.lua:2: trajectory.radius: has no effect, because trajectory.plan is \"ghost\"\n");
+  EXPECT_EQ(sentences_of("trajectory = rubble.trajectory.orbit { radius = 0.3 }"),
+            "m.lua:2: trajectory.radius: has no effect, because trajectory.plan is \"ghost\"\n");
+  EXPECT_EQ(sentences_of("trajectory = rubble.trajectory.orbit { radius = 0.3, plan = \"refuse\" }"), "");
+  EXPECT_EQ(sentences_of("trajectory = rubble.trajectory.orbit { turns = 0.5 }"), "");
   EXPECT_EQ(sentences_of("trajectory = { radius = 0.3, plan = \"avoid\", waypoints = { { position = { 0, 0, 1 } }, { position = { 1, 0, 1 } } } }"),
             "");
   EXPECT_EQ(sentences_of("trajectory = { ride = { position = { 0, 0, 1 } } }"),

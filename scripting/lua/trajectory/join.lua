@@ -22,8 +22,8 @@ local function waypoints_of(i, part, o)
   if part.position then return { part } end
   if not part.waypoints then return part end
   for key, default in pairs(given_once) do
-    local value = part[key] or false
-    if value ~= default and value ~= (o[key] or false) then
+    local value = part[key] or default
+    if value ~= default and value ~= (o[key] or default) then
       fail("part " .. i .. " has `" .. key .. "`: give it in the options of " .. name)
     end
   end

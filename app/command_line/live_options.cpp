@@ -32,7 +32,7 @@ void add_domain_options(CommandLine& line, LiveRequest& live, const Option* ros2
 
 Option add_rate_option(CommandLine& line, LiveRequest& live) {
   Option rate = line.add_read("--rate", [&live](const std::string& text) { return read_rate(text, live.rate); },
-                "Rate of publishing: realtime (default), fast, or a factor of real time");
+                              "Rate of publishing: realtime (default), fast, or a factor of real time");
   return rate.metavar("RATE");
 }
 

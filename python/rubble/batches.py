@@ -14,7 +14,7 @@ import posixpath
 import tempfile
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
-from typing import Any, Iterable, Iterator, Mapping, Optional, Sequence, Union
+from typing import Any, Iterable, Iterator, Mapping, Sequence, Union
 
 from . import _core
 from .arguments import whole

@@ -185,6 +185,7 @@ bool Baker::restore(CacheReader& from) {
       far_light_.size() != far || far_vectors_.size() != far ||
       first_cleared_.size() != (sheets_.any() ? first_hits_.size() : 0)) {
     for (Point& p : points_) p.open = 0;  // trace() adds to it
+    first_cleared_ = {}, far_light_ = far_vectors_ = {};
     return false;
   }
   find_substitutes();

@@ -6,7 +6,6 @@ pixels, made by PROGRAM. OUT gets a folder for each target and is made anew.
 """
 import base64
 import io
-import os
 import shutil
 import struct
 import subprocess

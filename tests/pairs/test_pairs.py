@@ -23,7 +23,6 @@ import recordings
 import rules
 import run_pairs
 from dataset import Dataset, Finding
-from missions import make_mission
 
 PROGRAM = os.environ["RUBBLE_PROGRAM"]
 # What most judges have something to say about.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 #include "kernel/base/error.h"
@@ -71,6 +72,15 @@ double calc_size(const Points& points) {
   return std::max({extent.x, extent.y, extent.z});
 }
 
+// None: flat. What is nearly flat may be so on the lattice of one hull and not on that of its corners, or in another frame.
+std::optional<Hull> hull_or_none(const Points& points) {
+  try {
+    return calc_hull(points);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
 // The corners of the hull, or nearly; empty: flat.
 Points hull_corners(const Points& points) {
   try {
@@ -112,7 +122,7 @@ class Joiner {
       if (part.points.empty()) {  // flat
         part.points = std::move(piece.points);
       } else {
-        part.misfit = solid.measure(calc_hull(part.points));
+        if (const std::optional<Hull> hull = hull_or_none(part.points)) part.misfit = solid.measure(*hull);
       }
       for (const Vec3& p : part.points) part.box.include(p);
       outside_ += part.misfit.outside;
@@ -318,7 +328,7 @@ Decomposition decompose(const TriangleMesh& mesh, const DecomposeOptions& option
     if (part.empty()) continue;
     result.parts.push_back({part});
     for (Vec3& p : part) p = frame_from_mesh * p;
-    hulls.push_back(calc_hull(part));
+    if (const std::optional<Hull> hull = hull_or_none(part)) hulls.push_back(*hull);
   }
   if (result.parts.empty()) fail_without_volume();
   result.volume = solid.volume();

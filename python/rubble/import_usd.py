@@ -53,14 +53,16 @@ class UsdReader:
         for prim in self.stage.Traverse(self.instances):
             if prim.IsA(self.geom.Gprim) and not prim.IsA(self.geom.Mesh):
                 self.notes.add(f"a {prim.GetTypeName()}: only meshes are taken")
-            if prim.IsA(self.geom.Mesh) and self.is_drawn(prim):
-                yield self.asset(prim)
+            asset = self.asset(prim) if prim.IsA(self.geom.Mesh) and self.is_drawn(prim) else None
+            if asset:
+                yield asset
 
     def asset(self, prim):
         mesh, where = self.geom.Mesh(prim), f"{self.path}: {prim.GetPath()}"
         points, counts, indices = (self.get(a) for a in (mesh.GetPointsAttr(), mesh.GetFaceVertexCountsAttr(), mesh.GetFaceVertexIndicesAttr()))
         if not points or not counts or not indices:
-            raise PackError(f"{where}: has no points or no faces")
+            self.notes.add("a mesh without points or faces")
+            return None
         if len(points) > MOST_POINTS:
             raise PackError(f"{where}: has {len(points)} points: expected {MOST_POINTS} at most")
         if sum(counts) != len(indices) or min(counts) < 3 or min(indices) < 0 or max(indices) >= len(points):
@@ -144,7 +146,7 @@ class UsdReader:
             return look
         shader = bound.ComputeSurfaceSource()[0]
         if not shader or shader.GetIdAttr().Get() != "UsdPreviewSurface":
-            if bound.ComputeSurfaceSource(["mdl"])[0] or shader:
+            if bound.ComputeSurfaceSource("mdl")[0] or shader:
                 self.notes.add(f"{bound.GetPath()}: a shader that is no UsdPreviewSurface")
             return look
         for name in ("emissiveColor", "opacity", "displacement", "occlusion", "clearcoat"):

@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
+#include "kernel/base/random.h"
 #include "kernel/geometry/decompose.h"
 #include "kernel/geometry/hull.h"
 #include "kernel/geometry/shape.h"
@@ -315,6 +317,28 @@ TEST(Decompose, TakesAFoilForAThinPlate) {
   for (const Vec3& p : made.parts[0].points) box.include(p);
   EXPECT_NEAR(box.max.z - box.min.z, DecomposeOptions{}.thinnest, 1e-3);
   EXPECT_NEAR(box.max.x - box.min.x, 0.014, 1e-3);
+}
+
+// Labels that lie side by side in a plane, but for what a file rounds: flat on one lattice of hulls, and not on another.
+TEST(Decompose, TakesTrianglesOfNearlyOnePlane) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    RandomStream random(seed, "rounding");
+    TriangleMesh mesh;
+    const portable::SinCos turn = portable::sincos(0.588);
+    for (const Vec3& label : {Vec3{-1.1, 0.108, 0.114}, Vec3{3, 0.29, 0.156}, Vec3{-3, 0.29, 0.156}}) {
+      const auto first = std::uint32_t(mesh.positions.size());
+      mesh.triangles.push_back({first, first + 1, first + 2});
+      mesh.surfaces.push_back(0);
+      for (const auto& [along, up] : {std::pair{-1, 1}, {-1, -1}, {1, 1}}) {
+        const double y = up * label.z, off = random.uniform(-1e-6, 1e-6);
+        mesh.positions.push_back(
+            Vec3f(Vec3(label.x + along * label.y, turn.cos * y - turn.sin * off, turn.sin * y + turn.cos * off)));
+      }
+    }
+    const Decomposition made = decompose(mesh);
+    EXPECT_GE(made.parts.size(), 1u) << "seed " << seed;
+    EXPECT_GT(volume_of(made.parts), 0) << "seed " << seed;
+  }
 }
 
 }  // namespace decompose_test

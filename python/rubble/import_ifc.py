@@ -2,8 +2,10 @@
 import math
 
 if __package__:
+    from .import_asset import volume
     from .plan_lines import LEAST, STRAIGHT, PlanError, line, plain
-else:  # the file beside this one, where import_plan.py is run by its path
+else:  # the files beside this one, where import_plan.py is run by its path
+    from import_asset import volume  # type: ignore[import-not-found,no-redef,unused-ignore]
     from plan_lines import LEAST, STRAIGHT, PlanError, line, plain  # type: ignore[import-not-found,no-redef,unused-ignore]
 
 FULL = 0.97          # share of its box that a part fills, or its shape is left out
@@ -17,15 +19,6 @@ WORDS = {"concrete": ("concrete", "beton", "béton", "hormig"), "block": ("block
 def material_of(text):
     text = text.lower()
     return next((material for material, words in WORDS.items() if any(word in text for word in words)), "")
-
-
-def volume(points, triangles):
-    """Of a closed mesh, by the tetrahedra of its triangles and the origin."""
-    total = 0.0
-    for i in range(0, len(triangles), 3):
-        (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (points[k] for k in triangles[i:i + 3])
-        total += (ax * (by * cz - bz * cy) - ay * (bx * cz - bz * cx) + az * (bx * cy - by * cx)) / 6
-    return abs(total)
 
 
 class IfcReader:
@@ -68,7 +61,8 @@ class IfcReader:
             raise PlanError(f"{self.path}: {self.what(entity)}: has no shape")
         low, high = [min(p[i] for p in points) for i in range(3)], [max(p[i] for p in points) for i in range(3)]
         columns = [m[i:i + 3] for i in range(0, 16, 4)]  # column by column
-        space, filled = math.prod(b - a for a, b in zip(low, high)), volume(points, shape.geometry.faces)
+        corners = shape.geometry.faces
+        space, filled = math.prod(b - a for a, b in zip(low, high)), volume(points, [corners[i:i + 3] for i in range(0, len(corners), 3)])
         if not entity.is_a("IfcOpeningElement") and filled < FULL * space:
             self.plan.notes.append(f"{self.what(entity)}: its shape, which fills {100 * filled / space:.0f} % of its box: the box is taken")
 
@@ -90,16 +84,14 @@ class IfcReader:
         if not levels:
             raise PlanError(f"{self.path}: has no IfcBuildingStorey")
         standing, walls = {}, []
-        for entity in self.model.by_type("IfcWall") + self.model.by_type("IfcColumn") + self.model.by_type("IfcBeam") + self.model.by_type("IfcSlab"):
+        for entity in self.model.by_type("IfcWall") + self.model.by_type("IfcColumn") + self.model.by_type("IfcBeam"):
             self.plan.place = self.what(entity)
             storey = self.ifc.util.element.get_container(entity, ifc_class="IfcBuildingStorey")
             if storey is None:
                 self.plan.notes.append(f"{self.what(entity)}: is in no storey")
                 continue
-            if entity.is_a("IfcSlab"):
-                continue
             box = self.box(entity)
-            standing[storey.id()] = max(standing.get(storey.id(), 0), box[2](box[1])[2])
+            standing[storey.id()] = max(standing.get(storey.id(), -math.inf), box[2](box[1])[2])
             walls.append((entity, storey.id(), box))
         floors = [(elevation, s.id()) for elevation, s in levels if s.id() in standing]
         if not floors:
@@ -124,7 +116,7 @@ class IfcReader:
         if not all(s.ObjectPlacement for s in storeys):
             return stated
         placed = [float(self.ifc.util.placement.get_local_placement(s.ObjectPlacement)[2][3]) * self.scale for s in storeys]
-        return placed if len(set(placed)) == len(set(stated)) else stated
+        return placed if len(set(placed)) >= len(set(stated)) else stated
 
     def note_others(self):
         """Kinds that plans have no part for; doors and windows are those of their openings."""

@@ -133,7 +133,9 @@ def write_pack(folder, assets, options):
         entry = f'    {{ name = "{name}", mesh = "{name}.obj", collision = "decompose", material = "{options.material}"'
         entries.append(entry + (f", density = {asset.density:.6g}" if asset.density is not None else "") + " },")
     text = f"-- From {options.file.name} by rubble.import_pack.\nreturn pack {{\n  name = \"{word(options.name or folder.name)}\",\n  assets = {{\n"
-    (folder / "pack.lua").write_text(text + "\n".join(entries) + "\n  },\n}\n", encoding="utf-8")
+    whole = folder / "pack.lua.part"
+    whole.write_text(text + "\n".join(entries) + "\n  },\n}\n", encoding="utf-8")
+    whole.replace(folder / "pack.lua")
 
 
 def main(arguments=None):

@@ -277,10 +277,10 @@ TEST(Rawlog, ReadingsOfSensorsAreMrptsObservations) {
   const auto gps = std::dynamic_pointer_cast<mrpt::obs::CObservationGPS>(read[3]);
   ASSERT_TRUE(gps);
   const auto& gga = gps->getMsgByClass<mrpt::obs::gnss::Message_NMEA_GGA>().fields;
-  EXPECT_EQ(gga.latitude_degrees, 42.5);
-  EXPECT_EQ(gga.longitude_degrees, -71.25);
+  EXPECT_EQ(double(gga.latitude_degrees), 42.5);  // a copy: the message is packed, and a reference would be misaligned
+  EXPECT_EQ(double(gga.longitude_degrees), -71.25);
   EXPECT_EQ(gga.fix_quality, 1);
-  EXPECT_EQ(gga.satellitesUsed, 7u);
+  EXPECT_EQ(unsigned(gga.satellitesUsed), 7u);
   EXPECT_EQ(gga.UTCTime.hour, 1);
   EXPECT_EQ(gga.UTCTime.minute, 2);
   EXPECT_NEAR(gga.UTCTime.sec, 3.5, 1e-9);

@@ -45,15 +45,6 @@ TriangleMesh make_wedge() {
   return mesh;
 }
 
-TriangleMesh make_flat_tetrahedron() {  // without normals, of one surface
-  TriangleMesh mesh;
-  mesh.positions = {{0, 0, 0}, {0.3f, 0, 0}, {0, 0.3f, 0}, {0, 0, 0.6f}};
-  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
-  mesh.surfaces = {0, 0, 0, 0};
-  mesh.surface_names = {"rebar"};
-  return mesh;
-}
-
 class PileExport : public ::testing::Test {
  protected:
   PileExport() {
@@ -79,7 +70,7 @@ class PileExport : public ::testing::Test {
     return folder_ / names_.back();
   }
 
-  TriangleMesh wedge_ = make_wedge(), spike_ = make_flat_tetrahedron();
+  TriangleMesh wedge_ = make_wedge(), spike_ = test::make_flat_tetrahedron();
   PileModel model_;
   ScratchFolder folder_;
   std::vector<std::string> names_;

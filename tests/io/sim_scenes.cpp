@@ -69,18 +69,9 @@ SimModel make_robot(const std::string& name, const RobotModel& robot, const Pose
   return model;
 }
 
-TriangleMesh make_spike() {
-  TriangleMesh mesh;
-  mesh.positions = {{0, 0, 0}, {0.3f, 0, 0}, {0, 0.3f, 0}, {0, 0, 0.6f}};
-  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
-  mesh.surfaces = {0, 0, 0, 0};
-  mesh.surface_names = {"rebar"};
-  return mesh;
-}
-
 }  // namespace
 
-SimScenes::SimScenes() : slab_(make_box_mesh({1, 2, 0.2})), spike_(make_spike()) {
+SimScenes::SimScenes() : slab_(make_box_mesh({1, 2, 0.2})), spike_(test::make_flat_tetrahedron()) {
   PileModel pile;
   pile.types = {{"slab", &slab_}, {"spike", &spike_}};
   pile.pieces = {{0, "slab_000000", 1.5, {portable::quat_from_rpy(0.3, -0.7, 1.9), {1, 2, 3}}, 0},

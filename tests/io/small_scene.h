@@ -1,10 +1,19 @@
-// A scene of a pile for tests: every piece a model, with the hull of its mesh.
+// A small mesh, and a scene of a pile for tests: every piece a model, with the hull of its mesh.
 #pragma once
 
 #include "io/scenes/pile_export.h"
 #include "kernel/geometry/shape.h"
 
 namespace rubble::test {
+
+inline TriangleMesh make_flat_tetrahedron() {  // without normals, of one surface
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {0.3f, 0, 0}, {0, 0.3f, 0}, {0, 0, 0.6f}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  mesh.surfaces = {0, 0, 0, 0};
+  mesh.surface_names = {"rebar"};
+  return mesh;
+}
 
 // free: numbers of pieces that may move, with a density of 2400 kg/m3.
 inline ExportModel make_scene(const PileModel& pile, const std::vector<std::size_t>& free = {}) {

@@ -24,8 +24,11 @@ using Clock = std::chrono::steady_clock;
 constexpr double kPatience = 5e-4;
 // A thread that takes longer may have lost its processor: a time slice of Linux has 3 ms and more. unit: s
 constexpr double kLost = 1e-3;
-// Loops run in the caller alone for this time, and for twice the time before if they did not run together for as long in
-// between: finding out costs two time slices. unit: s
+// Loops run in the caller alone when the waits for threads that did not run exceed this share of the time together by so much:
+// a thread of the program itself, such as a recorder's, takes a processor now and then, and two threads still gain.
+constexpr double kBearableShare = 0.25;
+constexpr double kMostLost = 0.05;  // unit: s
+// They do for this time, and for twice the time before if they did not run together for as long in between. unit: s
 constexpr double kLeastAlone = 0.05, kMostAlone = 2;
 // They also do while the caller loses its processor so often: it has none to itself, so others of its threads have not
 // either. An idle machine takes it a few times a second.
@@ -83,9 +86,10 @@ struct ThreadPool::Shared {
   std::atomic<bool> stop{false};
 
   // Of the caller.
-  Clock::time_point alone_until{}, looked{};
+  Clock::time_point alone_until{}, looked{}, waited{};
   double alone = 0;  // unit: s
-  long losses = 0;  // of its processor
+  double lost = 0;   // beyond the bearable share; unit: s
+  long losses = 0;   // of its processor
 
   bool crowded() {
     const Clock::time_point now = Clock::now();
@@ -174,13 +178,16 @@ struct ThreadPool::Shared {
       done.wait(lock, left);
       caller_sleeps = false;
     }
-    if (preempted && seconds_since(begin) > kLost) note_crowded();
+    if (const double time = seconds_since(begin); preempted && time > kLost) note_wait(time);
   }
 
-  void note_crowded() {
+  void note_wait(double time) {
     const Clock::time_point now = Clock::now();
     const double together = std::chrono::duration<double>(now - alone_until).count();
     if (together < 0) return;  // it is known
+    const double since = std::chrono::duration<double>(now - std::max(alone_until, std::exchange(waited, now))).count();
+    lost = std::max(0.0, lost - kBearableShare * since) + time;
+    if (lost < kMostLost) return;
     alone = std::clamp(together < alone ? 2 * alone : alone / 2, kLeastAlone, kMostAlone);
     alone_until = now + seconds(alone);
   }
@@ -206,7 +213,7 @@ int ThreadPool::threads() const { return int(shared_->workers.size()) + 1; }
 
 bool ThreadPool::crowded() { return !shared_->workers.empty() && shared_->crowded(); }
 
-void ThreadPool::note_crowded() { shared_->note_crowded(); }
+void ThreadPool::note_wait(double time) { shared_->note_wait(time); }
 
 void ThreadPool::run(int count, int grain, const std::function<void(int, int)>& body) {
   if (count <= 0) return;

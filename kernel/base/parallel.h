@@ -23,11 +23,12 @@ class ThreadPool {
   ThreadPool& operator=(const ThreadPool&) = delete;
 
   int threads() const;
-  // Of the caller. Whether other programs took a processor from it or from a thread that it waited for lately. Then loops run
-  // in the caller alone for a while: waiting for a thread that does not run costs more than doing its work.
+  // Of the caller. Whether others took a processor from it often, or from threads that it waited for, for a good share of the
+  // time. Then loops run in the caller alone for a while: waiting for a thread that does not run costs more than doing its work.
   bool crowded();
-  // The caller waited for a thread that did not run. The next while alone is longer if this happens soon again.
-  void note_crowded();
+  // The caller waited so long for a thread that did not run. Where such waits take a good share of the time, loops run in the
+  // caller alone for a while, and longer if this happens soon again. unit: s
+  void note_wait(double time);
   // Calls body(begin, end) for consecutive ranges of `grain` that cover [0, count), the last perhaps shorter, or once for all of
   // it, and returns when all are done. `body` must not throw. A thread that has not begun when nothing is left is not waited for.
   void run(int count, int grain, const std::function<void(int, int)>& body);

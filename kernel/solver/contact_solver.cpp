@@ -105,7 +105,7 @@ class ContactSolver::Sweeper {
   template <typename Advance>
   void run(ThreadPool& pool, const Advance& advance) {
     left_ = s_.domain_count_;
-    bool in_vain = false;
+    double in_vain = 0;  // unit: s
     pool.run_with_help(s_.domain_count_, [&](int thread) {
       IdleWait wait(thread == 0);
       while (left_.load(std::memory_order_acquire) > 0) {
@@ -117,7 +117,7 @@ class ContactSolver::Sweeper {
       }
       if (thread == 0) in_vain = wait.in_vain();
     });
-    if (in_vain) pool.note_crowded();
+    if (in_vain > 0) pool.note_wait(in_vain);
   }
   template <typename Advance>
   bool help(int thread, const Advance& advance) {

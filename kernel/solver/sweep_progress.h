@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <thread>
+#include <utility>
 
 namespace rubble {
 
@@ -63,8 +64,8 @@ class IdleWait {
   }
   void reset() { tries_ = 0; }
   bool at_length() const { return tries_ > kShort; }
-  // Whether it took so long that somebody cannot have run.
-  bool in_vain() const { return in_vain_; }
+  // How long it waited where it took so long that somebody cannot have run. unit: s
+  double in_vain() const { return in_vain_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -82,12 +83,14 @@ class IdleWait {
   void nap() {
     if (tries_ == kSpins + 1) begin_ = Clock::now();
     std::this_thread::sleep_for(std::chrono::microseconds(kNap));
-    if (Clock::now() - begin_ > std::chrono::microseconds(kLongest)) in_vain_ = true;
+    const Clock::time_point now = Clock::now();
+    if (now - begin_ < std::chrono::microseconds(kLongest)) return;
+    in_vain_ += std::chrono::duration<double>(now - std::exchange(begin_, now)).count();
   }
 
   bool is_caller_;
   int tries_ = 0;
-  bool in_vain_ = false;
+  double in_vain_ = 0;  // unit: s
   Clock::time_point begin_{};
 };
 

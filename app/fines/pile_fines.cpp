@@ -4,7 +4,6 @@
 
 #include "io/state/fines_file.h"
 #include "kernel/base/hash.h"
-#include "kernel/fines/strew_fines.h"
 #include "kernel/geometry/fine_shapes.h"
 
 namespace rubble {
@@ -29,9 +28,10 @@ std::string describe_missing(const FinesSpec& spec, const Fines& fines) {
 
 }  // namespace
 
-std::string lay_fines(const FinesSpec& spec, std::uint64_t seed, const AssetLibrary& assets, int threads, PileState& pile) {
+std::string lay_fines(const FinesSpec& spec, std::uint64_t seed, const AssetLibrary& assets, int threads, PileState& pile,
+                      const FinesProgress& progress) {
   if (spec.amount == 0) return {};
-  pile.fines = strew_fines(pile, assets.finest_meshes(), spec, {seed, threads, assets.terrain()});
+  pile.fines = strew_fines(pile, assets.finest_meshes(), spec, {seed, threads, assets.terrain(), progress});
   return describe_missing(spec, pile.fines);
 }
 

@@ -9,6 +9,7 @@
 #include "app/formats/class_labels.h"
 #include "io/mesh/pile_model.h"
 #include "io/recording/recording.h"
+#include "kernel/fines/strew_fines.h"
 #include "kernel/model/pile_state.h"
 #include "render/scene/scene.h"
 
@@ -17,8 +18,9 @@ namespace rubble {
 inline constexpr const char* kFinesFile = "fines.bin";
 
 // Strews what is asked for; nothing where that is none. Follows from spec, seed, assets and pile alone.
-// Returns a warning where there is no room for all of it; empty: none.
-std::string lay_fines(const FinesSpec& spec, std::uint64_t seed, const AssetLibrary& assets, int threads, PileState& pile);
+// Returns a warning where there is no room for all of it; empty: none. progress: as in StrewOptions.
+std::string lay_fines(const FinesSpec& spec, std::uint64_t seed, const AssetLibrary& assets, int threads, PileState& pile,
+                      const FinesProgress& progress = {});
 
 // Of what fines are made from, for a stage that goes on from a file; `pile`: the same of the pile. The same as
 // `pile` without fines.

@@ -194,9 +194,13 @@ void save(const ResolvedMission& mission, const PileState& state, std::uint64_t 
 
 // Strews fines over the pile, with what a person sees of it.
 void strew(const ResolvedMission& mission, RunContext& context, PileState& pile) {
-  if (mission.scenario.fines.amount == 0) return;
+  const int amount = mission.scenario.fines.amount;
+  if (amount == 0) return;
   context.progress.start("fines");
-  const std::string warning = lay_fines(mission.scenario.fines, mission.pile_seed, mission.assets, context.threads(), pile);
+  const auto show = [&](double done, int strewn) {
+    context.progress.update(done, std::to_string(strewn) + " of " + std::to_string(amount));
+  };
+  const std::string warning = lay_fines(mission.scenario.fines, mission.pile_seed, mission.assets, context.threads(), pile, show);
   if (!warning.empty()) context.warnings.push_back(warning);
   context.progress.finish(std::to_string(pile.fines.pieces.size() + pile.fines.sheets.size()) + " strewn");
 }

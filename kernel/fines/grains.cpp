@@ -23,6 +23,7 @@ constexpr double kStiffGap = 0.3, kFlatGap = 0.1;  // below a part of such a bod
 constexpr double kClear = 0.8;           // least distance from other surfaces, in heights of the middle
 constexpr double kSplinter = 0.3;        // how slim wood is, beside stone
 constexpr int kRounds = 8;               // of heaps, before there is no room
+constexpr std::size_t kHeapsAtOnce = 512;  // between two reports of progress
 
 // How a kind comes down. Sizes are of the longest side; unit: m.
 struct Manner {
@@ -159,18 +160,32 @@ void strew_grains(const GrainGround& ground, FineKind kind, int amount, const Fi
   if (!(sum > 0) || amount <= 0) return;
   const WeightedChoice choice(weights);
   const GrainStrewer strewer(ground, kind, spec, choice);
+  const std::size_t before = pieces.size();
   std::size_t heaps = 0;
   int left = amount;
   double of_heap = 8;  // grains that stay, at first a guess
+  // What is to go of this round, and full rounds after it.
+  const auto report = [&](std::size_t heaps_of_round, int rounds) {
+    if (!ground.options.progress) return;
+    const double rate = double(amount - left) / double(heaps);
+    const double most = double(heaps_of_round) + rounds * double(left) / std::max(1.0, rate);
+    const double to_go = rate > 0 ? std::min(double(left) / rate, most) : most;
+    const double share = double(heaps) / (double(heaps) + to_go);
+    ground.options.progress((double(before) + share * amount) / spec.amount, int(pieces.size()));
+  };
   for (int round = 0; round < kRounds && left > 0; ++round) {
-    std::vector<std::vector<Grain>> made(std::size_t(double(left) / of_heap) + 4);
-    parallel_for(made.size(), ground.options.threads, [&](std::size_t i) { made[i] = strewer.make_heap(heaps + i); });
-    heaps += made.size();
-    for (const std::vector<Grain>& heap : made)
-      for (const Grain& grain : heap) {
-        const double radius = double(grain.piece.half.x + grain.piece.half.y) / 2;
-        if (left > 0 && room.take(grain.centre, radius)) pieces.push_back(grain.piece), --left;
-      }
+    const std::size_t end = heaps + std::size_t(double(left) / of_heap) + 4;
+    while (heaps < end && left > 0) {
+      std::vector<std::vector<Grain>> made(std::min(kHeapsAtOnce, end - heaps));
+      parallel_for(made.size(), ground.options.threads, [&](std::size_t i) { made[i] = strewer.make_heap(heaps + i); });
+      heaps += made.size();
+      for (const std::vector<Grain>& heap : made)
+        for (const Grain& grain : heap) {
+          const double radius = double(grain.piece.half.x + grain.piece.half.y) / 2;
+          if (left > 0 && room.take(grain.centre, radius)) pieces.push_back(grain.piece), --left;
+        }
+      report(end - heaps, kRounds - 1 - round);
+    }
     of_heap = std::max(1.0, double(amount - left) / double(heaps));
   }
 }

@@ -24,7 +24,8 @@ struct GrainGround {
   }
 };
 
-// Strews `amount` pieces of a kind, or as many as there is room for. kind: grit, plaster or glass.
+// Strews `amount` pieces of a kind, or as many as there is room for, and reports it with all in `pieces` to
+// options.progress. kind: grit, plaster or glass.
 void strew_grains(const GrainGround& ground, FineKind kind, int amount, const FinesSpec& spec, RoomForFines& room,
                   std::vector<FinePiece>& pieces);
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "kernel/base/mesh.h"
@@ -14,10 +15,14 @@
 
 namespace rubble {
 
+// done: an estimate, 0 to 1. strewn: loose pieces so far.
+using FinesProgress = std::function<void(double done, int strewn)>;
+
 struct StrewOptions {
   std::uint64_t seed = 0;      // of all that is drawn at random
   int threads = 1;             // at least 1
   std::vector<int> scenery{};  // types that are terrain: fines lie on it near the pile alone
+  FinesProgress progress{};    // in the caller's thread, now and then
 };
 
 // meshes: by type index, as for PileQueries. The pile's own fines are not looked at. Where there is no room for

@@ -51,7 +51,7 @@ struct Corner {
   }
 
   Fines strew(const FinesSpec& spec, std::uint64_t seed = 1, int threads = 2) const {
-    return strew_fines(pile, pointers(), spec, {seed, threads, {}});
+    return strew_fines(pile, pointers(), spec, {seed, threads});
   }
 };
 
@@ -105,6 +105,29 @@ TEST(Fines, HaveTheirHeapsMadeOnce) {
   EXPECT_THROW(without.heaps(), std::logic_error);
   heap_fines(without);
   EXPECT_EQ(without.heaps().size(), fines.heaps().size());
+}
+
+// Where there is no room for all, too, the last report is near the end.
+TEST(Fines, ReportTheirProgress) {
+  const Corner corner;
+  for (const int amount : {2000, 400000}) {
+    StrewOptions options{1, 2};
+    double last = 0;
+    int reports = 0, strewn = 0;
+    options.progress = [&](double done, int so_far) {
+      EXPECT_GT(done, 0);
+      EXPECT_LE(done, 1 + 1e-9);
+      EXPECT_GE(so_far, strewn);
+      last = done, strewn = so_far, ++reports;
+    };
+    const Fines fines = strew_fines(corner.pile, corner.pointers(), loose(amount), options);
+    EXPECT_EQ(strewn, int(fines.pieces.size()));
+    EXPECT_GT(last, 0.9) << amount;
+    EXPECT_GE(reports, 3);  // a kind each
+    if (amount > 2000) {
+      EXPECT_LT(fines.pieces.size(), 400000u) << "a test of what has no room";
+    }
+  }
 }
 
 TEST(Fines, AreTheSameForAnyNumberOfThreadsAndOthersForAnotherSeed) {

@@ -4,13 +4,16 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdio>
 #include <mutex>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #if !defined(_WIN32)
+#include <fcntl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 #endif
 
 namespace rubble {
@@ -24,16 +27,15 @@ using Clock = std::chrono::steady_clock;
 constexpr double kPatience = 5e-4;
 // A thread that takes longer may have lost its processor: a time slice of Linux has 3 ms and more. unit: s
 constexpr double kLost = 1e-3;
-// Loops run in the caller alone when the waits for threads that did not run exceed this share of the time together by so much:
-// a thread of the program itself, such as a recorder's, takes a processor now and then, and two threads still gain.
+// Loops run in the caller alone when others took more than this share of the time together, and so much more: from the caller, or
+// from threads that it waited for. Threads of the program itself, such as a recorder's, take less, and two threads still gain.
 constexpr double kBearableShare = 0.25;
-constexpr double kMostLost = 0.05;  // unit: s
-// They do for this time, and for twice the time before if they did not run together for as long in between. unit: s
-constexpr double kLeastAlone = 0.05, kMostAlone = 2;
-// They also do while the caller loses its processor so often: it has none to itself, so others of its threads have not
-// either. An idle machine takes it a few times a second.
-constexpr double kMostPreemptions = 1;  // in kLookAfter
-constexpr double kLookAfter = 0.02;     // unit: s
+constexpr double kMostLost = 0.025;  // unit: s
+// They do for this time, and for twice the time before if they did not run together for as long in between. Then this much more
+// is enough. unit: s
+constexpr double kLeastAlone = 0.05, kMostAlone = 2, kLostAgain = 0.004;
+constexpr double kLookAfter = 0.02;  // at what the caller lost; unit: s
+constexpr double kSlice = 0.003;     // of Linux, where it does not tell more than how many were lost; unit: s
 
 // How often another program took the processor from this thread; not known: 0.
 long count_preemptions() {
@@ -43,6 +45,32 @@ long count_preemptions() {
 #endif
   return 0;
 }
+
+// How long this thread was ready and had no processor: /proc/thread-self/schedstat.
+class ReadyTime {
+ public:
+  double read() const {  // unit: s
+#if defined(__linux__)
+    char text[96];
+    const ssize_t size = file_ < 0 ? -1 : pread(file_, text, sizeof text - 1, 0);
+    unsigned long long ran = 0, waited = 0;  // unit: ns
+    if (size > 0 && (text[size] = '\0', std::sscanf(text, "%llu %llu", &ran, &waited) == 2)) return double(waited) * 1e-9;
+#endif
+    return double(count_preemptions()) * kSlice;
+  }
+
+#if defined(__linux__)
+  ReadyTime() : file_(open("/proc/thread-self/schedstat", O_RDONLY | O_CLOEXEC)) {}
+  ~ReadyTime() {
+    if (file_ >= 0) close(file_);
+  }
+  ReadyTime(const ReadyTime&) = delete;
+  ReadyTime& operator=(const ReadyTime&) = delete;
+
+ private:
+  int file_;
+#endif
+};
 
 Clock::duration seconds(double s) { return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s)); }
 
@@ -89,7 +117,8 @@ struct ThreadPool::Shared {
   Clock::time_point alone_until{}, looked{}, waited{};
   double alone = 0;  // unit: s
   double lost = 0;   // beyond the bearable share; unit: s
-  long losses = 0;   // of its processor
+  const ReadyTime* caller = nullptr;
+  double kept_away = 0;  // the caller, from a processor, when it looked; unit: s
 
   bool crowded() {
     const Clock::time_point now = Clock::now();
@@ -97,10 +126,10 @@ struct ThreadPool::Shared {
     return now < alone_until;
   }
   void look(Clock::time_point now) {
-    const long before = std::exchange(losses, count_preemptions());
-    const double intervals = std::chrono::duration<double>(now - looked).count() / kLookAfter;
-    const bool first = std::exchange(looked, now) == Clock::time_point{};
-    if (!first && double(losses - before) > kMostPreemptions * intervals) alone_until = std::max(alone_until, now + seconds(kLeastAlone));
+    static thread_local const ReadyTime ready;
+    const double before = std::exchange(kept_away, ready.read());
+    const bool same = std::exchange(caller, &ready) == &ready, together = std::exchange(looked, now) > alone_until;
+    if (same && together && kept_away > before) note_wait(kept_away - before);
   }
 
   bool take_one() {
@@ -188,6 +217,7 @@ struct ThreadPool::Shared {
     const double since = std::chrono::duration<double>(now - std::max(alone_until, std::exchange(waited, now))).count();
     lost = std::max(0.0, lost - kBearableShare * since) + time;
     if (lost < kMostLost) return;
+    lost = kMostLost - kLostAgain;
     alone = std::clamp(together < alone ? 2 * alone : alone / 2, kLeastAlone, kMostAlone);
     alone_until = now + seconds(alone);
   }

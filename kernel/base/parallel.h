@@ -23,8 +23,8 @@ class ThreadPool {
   ThreadPool& operator=(const ThreadPool&) = delete;
 
   int threads() const;
-  // Of the caller. Whether others took a processor from it often, or from threads that it waited for, for a good share of the
-  // time. Then loops run in the caller alone for a while: waiting for a thread that does not run costs more than doing its work.
+  // Of the caller. Whether others took a processor from it, or from threads that it waited for, for a good share of the time.
+  // Then loops run in the caller alone for a while: waiting for a thread that does not run costs more than doing its work.
   bool crowded();
   // The caller waited so long for a thread that did not run. Where such waits take a good share of the time, loops run in the
   // caller alone for a while, and longer if this happens soon again. unit: s

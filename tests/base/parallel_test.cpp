@@ -75,7 +75,7 @@ TEST(ThreadPool, BearsAShortWait) {
   ThreadPool pool(2);
   bool crowded = pool.crowded();
   for (int k = 0; k < 4; ++k) {
-    pool.note_wait(0.01);
+    pool.note_wait(0.005);
     crowded = crowded || pool.crowded();
   }
   const bool at_once = Clock::now() - begin < std::chrono::milliseconds(20);  // else others may have taken the processor

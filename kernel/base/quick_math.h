@@ -25,9 +25,13 @@ inline double power_of_two(int e) {
   std::memcpy(&x, &bits, sizeof x);
   return x;
 }
-// (e^r - 1) / r for |r| <= 0.35: Taylor's series.
-inline double exp_series(double r) {
-  double p = 1.1470745597729725e-11;  // 1/14!
+// Series of a double, or of several in the lanes of a register (render/sensors/wide_noise.cpp), whose code must not end up in
+// that of another instruction set.
+#define RUBBLE_SERIES template <typename Real> [[gnu::always_inline]] inline Real
+
+// (e^r - 1) / r for |r| <= 0.35: Taylor's.
+RUBBLE_SERIES exp_series(Real r) {
+  Real p = Real() + 1.1470745597729725e-11;  // 1/14!
   p = p * r + 1.6059043836821613e-10;
   p = p * r + 2.08767569878681e-09;
   p = p * r + 2.505210838544172e-08;
@@ -42,17 +46,10 @@ inline double exp_series(double r) {
   p = p * r + 0.5;
   return p * r + 1.0;
 }
-// log(m) and the e of x = 2^e m, m from sqrt(1/2) to sqrt(2). x: normal, above 0.
-inline double log_of_fraction(double x, int& e) {
-  std::uint64_t bits;
-  std::memcpy(&bits, &x, sizeof bits);
-  const std::uint64_t moved = bits - 0x3fe6a09e667f3bcdull;
-  e = int(std::int64_t(moved) >> 52);
-  bits = (moved & 0x000fffffffffffffull) + 0x3fe6a09e667f3bcdull;
-  double m;
-  std::memcpy(&m, &bits, sizeof m);
-  const double f = (m - 1.0) / (m + 1.0), s = f * f;
-  double p = 1.0 / 21;
+// log(m) for f = (m - 1) / (m + 1), m from sqrt(1/2) to sqrt(2).
+RUBBLE_SERIES log_series(Real f) {
+  const Real s = f * f;
+  Real p = Real() + 1.0 / 21;
   p = p * s + 1.0 / 19;
   p = p * s + 1.0 / 17;
   p = p * s + 1.0 / 15;
@@ -63,6 +60,43 @@ inline double log_of_fraction(double x, int& e) {
   p = p * s + 1.0 / 5;
   p = p * s + 1.0 / 3;
   return 2.0 * (f + f * s * p);
+}
+// For |r| <= pi / 4.
+RUBBLE_SERIES sin_series(Real r) {
+  const Real s = r * r;
+  Real a = Real() - 7.647163731819816e-13;  // -1/15!
+  a = a * s + 1.6059043836821613e-10;
+  a = a * s - 2.505210838544172e-08;
+  a = a * s + 2.7557319223985893e-06;
+  a = a * s - 1.9841269841269841e-04;
+  a = a * s + 8.333333333333333e-03;
+  a = a * s - 1.6666666666666666e-01;
+  return r + r * s * a;
+}
+RUBBLE_SERIES cos_series(Real r) {
+  const Real s = r * r;
+  Real b = Real() + 4.779477332387385e-14;  // 1/16!
+  b = b * s - 1.1470745597729725e-11;
+  b = b * s + 2.08767569878681e-09;
+  b = b * s - 2.755731922398589e-07;
+  b = b * s + 2.48015873015873e-05;
+  b = b * s - 1.3888888888888889e-03;
+  b = b * s + 4.1666666666666664e-02;
+  b = b * s - 0.5;
+  return 1.0 + s * b;
+}
+#undef RUBBLE_SERIES
+
+// log(m) and the e of x = 2^e m, m from sqrt(1/2) to sqrt(2). x: normal, above 0.
+inline double log_of_fraction(double x, int& e) {
+  std::uint64_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  const std::uint64_t moved = bits - 0x3fe6a09e667f3bcdull;
+  e = int(std::int64_t(moved) >> 52);
+  bits = (moved & 0x000fffffffffffffull) + 0x3fe6a09e667f3bcdull;
+  double m;
+  std::memcpy(&m, &bits, sizeof m);
+  return log_series((m - 1.0) / (m + 1.0));
 }
 // On [0, 1]: two halvings of the angle, then the series.
 inline double atan_unit(double x) {
@@ -129,23 +163,8 @@ struct SinCos {
 // unit: rad; range: |x| <= 1e6
 inline SinCos sincos(double x) {
   const int k = detail::round(x * 0.63661977236758134308);
-  const double r = ((x - k * 0x1.921fb544p+0) - k * 0x1.0b4611a6p-34) - k * 0x1.3198a2e037073p-69, s = r * r;
-  double a = -7.647163731819816e-13;  // -1/15!
-  a = a * s + 1.6059043836821613e-10;
-  a = a * s - 2.505210838544172e-08;
-  a = a * s + 2.7557319223985893e-06;
-  a = a * s - 1.9841269841269841e-04;
-  a = a * s + 8.333333333333333e-03;
-  a = a * s - 1.6666666666666666e-01;
-  double b = 4.779477332387385e-14;  // 1/16!
-  b = b * s - 1.1470745597729725e-11;
-  b = b * s + 2.08767569878681e-09;
-  b = b * s - 2.755731922398589e-07;
-  b = b * s + 2.48015873015873e-05;
-  b = b * s - 1.3888888888888889e-03;
-  b = b * s + 4.1666666666666664e-02;
-  b = b * s - 0.5;
-  const double sine = r + r * s * a, cosine = 1.0 + s * b;
+  const double r = ((x - k * 0x1.921fb544p+0) - k * 0x1.0b4611a6p-34) - k * 0x1.3198a2e037073p-69;
+  const double sine = detail::sin_series(r), cosine = detail::cos_series(r);
   switch (k & 3) {
     case 0: return {sine, cosine};
     case 1: return {cosine, -sine};

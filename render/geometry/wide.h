@@ -16,6 +16,9 @@
 #endif
 
 #define RUBBLE_INLINE [[gnu::always_inline]] inline
+#define RUBBLE_TEXT_OF(name) #name
+#define RUBBLE_NAME_OF(name) RUBBLE_TEXT_OF(name)
+#define RUBBLE_NAME_OF_ISA RUBBLE_NAME_OF(RUBBLE_ISA)  // a literal
 
 namespace rubble::RUBBLE_ISA {
 

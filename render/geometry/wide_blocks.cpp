@@ -109,12 +109,9 @@ bool block_hides(const TriangleBlock& block, const BlockRay& ray, float farthest
   return false;
 }
 
-#define RUBBLE_TEXT_OF(name) #name
-#define RUBBLE_NAME_OF(name) RUBBLE_TEXT_OF(name)
-
 }  // namespace
 
 extern const BlockFunctions kBlockFunctions;
-const BlockFunctions kBlockFunctions = {RUBBLE_NAME_OF(RUBBLE_ISA), meet_block, block_hides};
+const BlockFunctions kBlockFunctions = {RUBBLE_NAME_OF_ISA, meet_block, block_hides};
 
 }  // namespace rubble::RUBBLE_ISA

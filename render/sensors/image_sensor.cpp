@@ -1,6 +1,7 @@
 #include "render/sensors/image_sensor.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "kernel/base/parallel.h"
@@ -14,7 +15,8 @@ namespace rubble {
 
 namespace {
 
-constexpr std::size_t kChunk = 1 << 14;  // pixels a job
+constexpr std::size_t kChunk = 1 << 15;  // of what is counted, a job
+constexpr std::size_t kSitesAtOnce = 256;
 constexpr double kRed = 0.2126, kGreen = 0.7152, kBlue = 0.0722;  // Rec. 709
 
 double respond(double x, const ImageSensorSpec& spec) {
@@ -55,32 +57,45 @@ std::vector<std::uint16_t> ImageSensor::count(const std::vector<float>& light,
   const FixedPattern* const pattern = patterns_[std::size_t(eye)].get();
   const double share = saturation_share(settings, spec_.exposure.f_number);
   const double well = sensor.full_well * 100 / settings.iso;
-  // c: of the light; site: of what is counted.
-  const auto count_one = [&](std::size_t c, std::size_t site) {
-    double electrons = double(light[c]) * double(fall_off_[c / 3]) * share * well;
-    if (pattern) electrons = pattern->collect(site, electrons, settings.time);
-    if (sensor.noise) electrons = shot.poisson(c, electrons) + sensor.read_noise * read.normal(c);
-    if (pattern) electrons += pattern->offset(site);
-    return std::uint16_t(
-        std::clamp(std::floor(electrons / well * most_ + 0.5), 0.0, double(most_)));
-  };
   std::vector<std::uint16_t> counts(has_mosaic() ? fall_off_.size() : light.size());
-  parallel_for((fall_off_.size() + kChunk - 1) / kChunk, spec_.threads, [&](std::size_t job) {
-    for (std::size_t i = job * kChunk; i < std::min((job + 1) * kChunk, fall_off_.size()); ++i) {
-      if (has_mosaic()) {
-        const int x = int(i % std::size_t(k.width)), y = int(i / std::size_t(k.width));
-        counts[i] = count_one(i * 3 + std::size_t(mosaic_colour(sensor.mosaic, x, y)), i);
-      } else {
-        for (std::size_t c = i * 3; c < i * 3 + 3; ++c) counts[c] = count_one(c, c);
-      }
+  // Of what is counted: where in `light` its light is.
+  const auto place_of = [&](std::size_t site) {
+    if (!has_mosaic()) return site;
+    const int x = int(site % std::size_t(k.width)), y = int(site / std::size_t(k.width));
+    return site * 3 + std::size_t(mosaic_colour(sensor.mosaic, x, y));
+  };
+  const auto count_some = [&](std::size_t first, std::size_t n) {
+    std::array<std::uint32_t, kSitesAtOnce> places;
+    std::array<double, kSitesAtOnce> electrons, noise;
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t place = place_of(first + i);
+      places[i] = std::uint32_t(place);
+      electrons[i] = double(light[place]) * double(fall_off_[place / 3]) * share * well;
+      if (pattern) electrons[i] = pattern->collect(first + i, electrons[i], settings.time);
     }
+    if (sensor.noise) {
+      shot.poisson(places.data(), electrons.data(), n, electrons.data());
+      read.normal(places.data(), n, noise.data());
+      for (std::size_t i = 0; i < n; ++i) electrons[i] += sensor.read_noise * noise[i];
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      if (pattern) electrons[i] += pattern->offset(first + i);
+      counts[first + i] = std::uint16_t(std::clamp(electrons[i] / well * most_ + 0.5, 0.0, double(most_)));
+    }
+  };
+  parallel_for((counts.size() + kChunk - 1) / kChunk, spec_.threads, [&](std::size_t job) {
+    const std::size_t end = std::min((job + 1) * kChunk, counts.size());
+    for (std::size_t first = job * kChunk; first < end; first += kSitesAtOnce)
+      count_some(first, std::min(kSitesAtOnce, end - first));
   });
   return has_mosaic() ? demosaic(sensor.mosaic, k.width, k.height, counts, most_) : counts;
 }
 
 std::vector<std::uint8_t> ImageSensor::develop(const std::vector<std::uint16_t>& counts) const {
   std::vector<std::uint8_t> out(counts.size());
-  for (std::size_t i = 0; i < counts.size(); ++i) out[i] = response_[counts[i]];
+  parallel_for((counts.size() + kChunk - 1) / kChunk, spec_.threads, [&](std::size_t job) {
+    for (std::size_t i = job * kChunk; i < std::min((job + 1) * kChunk, counts.size()); ++i) out[i] = response_[counts[i]];
+  });
   if (spec_.sensor.jpeg_quality > 0)
     lose_to_jpeg(out, spec_.intrinsics.width, spec_.intrinsics.height, spec_.sensor.jpeg_quality,
                  spec_.threads);

@@ -3,14 +3,25 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "kernel/base/portable_math.h"
 #include "kernel/base/quick_math.h"
 #include "kernel/base/random.h"
 
 namespace rubble {
+
+// Of many places at once: the same bits as one by one, several to a register.
+struct NoiseLanes {
+  const char* name;  // of the instruction set
+  void (*normal)(std::uint64_t key, const std::uint32_t* places, std::size_t count, double* out);
+  void (*poisson)(std::uint64_t key, const std::uint32_t* places, const double* means, std::size_t count, double* out);
+};
+// Those that this processor can run, the fastest first. Never empty.
+const std::vector<NoiseLanes>& noise_lanes();
 
 class NoiseField {
  public:
@@ -38,15 +49,25 @@ class NoiseField {
     while (left >= 0 && count < 200) p *= mean / ++count, left -= p;
     return count;
   }
+  // out: one each
+  void normal(const std::uint32_t* places, std::size_t count, double* out, const NoiseLanes& lanes = noise_lanes().front()) const {
+    lanes.normal(key_, places, count, out);
+  }
+  void poisson(const std::uint32_t* places, const double* means, std::size_t count, double* out,
+               const NoiseLanes& lanes = noise_lanes().front()) const {
+    lanes.poisson(key_, places, means, count, out);
+  }
 
- private:
   static constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15u;
-  // The finaliser of SplitMix64 (Steele, Lea and Flood 2014).
-  static std::uint64_t mix(std::uint64_t x) {
+  // The finaliser of SplitMix64 (Steele, Lea and Flood 2014), of one number or of lanes.
+  template <typename Word>
+  [[gnu::always_inline]] static Word mix(Word x) {
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
     return x ^ (x >> 31);
   }
+
+ private:
   std::uint64_t bits(std::uint64_t place) const { return mix(key_ + place * kStep); }
 
   std::uint64_t key_;

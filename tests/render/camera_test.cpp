@@ -244,6 +244,29 @@ TEST(NoiseField, HasTheMomentsOfItsDistributions) {
   EXPECT_NE(NoiseField(12, "test").normal(0), field.normal(0));
 }
 
+// Also of a register that is not full, and where few and many photons stand side by side.
+TEST(NoiseField, IsTheSameBitsInLanes) {
+  const NoiseField field(7, "lanes", 3);
+  std::vector<std::uint32_t> places;
+  std::vector<double> means;
+  RandomStream random(5, "means");
+  for (std::uint32_t i = 0; i < 40001; ++i) {
+    places.push_back(i < 20000 ? i : std::uint32_t(random.below(std::uint64_t(1) << 32)));
+    means.push_back(i % 7 == 0 ? 0 : i % 11 == 0 ? -1 : 30 * std::pow(10, random.uniform(-6, 6)));
+  }
+  means[1] = 30, means[2] = std::nextafter(30, 31), means[3] = 5e-324, means[4] = std::nan(""), means[5] = 1e300;
+  for (const NoiseLanes& lanes : noise_lanes())
+    for (const std::size_t count : {std::size_t(0), std::size_t(1), std::size_t(13), places.size()}) {
+      std::vector<double> normal(count), poisson(count);
+      field.normal(places.data(), count, normal.data(), lanes);
+      field.poisson(places.data(), means.data(), count, poisson.data(), lanes);
+      for (std::size_t i = 0; i < count; ++i) {
+        ASSERT_EQ(normal[i], field.normal(places[i])) << lanes.name << ", place " << places[i];
+        ASSERT_EQ(poisson[i], field.poisson(places[i], means[i])) << lanes.name << ", mean " << means[i];
+      }
+    }
+}
+
 // The photon transfer curve: variance = mean + read^2 + step^2 / 12, in electrons.
 TEST(Noise, FollowsThePhotonTransferCurve) {
   CameraSpec spec = fixed_camera(200, 200, 100);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "kernel/geometry/shape.h"
@@ -90,14 +91,16 @@ void add_pile_metrics(const PileState& pile, const AssetLibrary& assets, Metrics
 
 void DepthMetrics::add(const Frame& frame) {
   double sum = 0;
+  float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
+  std::int64_t returns = 0;
   for (const float depth : frame.depth) {
     if (!(depth > 0)) continue;
-    const double d = double(depth);
-    min_ = returns_ == 0 ? d : std::min(min_, d);
-    max_ = std::max(max_, d);
-    sum += d;
-    ++returns_;
+    nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
+    sum += double(depth), ++returns;
   }
+  if (returns > 0) min_ = returns_ == 0 ? double(nearest) : std::min(min_, double(nearest));
+  max_ = std::max(max_, double(farthest));
+  returns_ += returns;
   sum_ += sum;
   pixels_ += std::int64_t(frame.depth.size());
   const Vec3& position = frame.world_from_rig.translation;

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "kernel/base/error.h"
+#include "kernel/base/parallel.h"
 #include "render/optics/lens_optics.h"
 #include "render/sensors/depth_sensor.h"
 #include "render/sensors/event_camera.h"
@@ -23,8 +24,11 @@ namespace {
 constexpr double kSharp = 0.5;
 constexpr int kMostEventImages = 1000;  // between two frames
 
-void add_scaled(std::vector<float>& sum, const std::vector<float>& image, float factor) {
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += factor * image[i];
+void add_scaled(std::vector<float>& sum, const std::vector<float>& image, float factor, int threads) {
+  constexpr std::size_t kChunk = 1 << 16;
+  parallel_for((sum.size() + kChunk - 1) / kChunk, threads, [&](std::size_t job) {
+    for (std::size_t i = job * kChunk; i < std::min((job + 1) * kChunk, sum.size()); ++i) sum[i] += factor * image[i];
+  });
 }
 
 std::vector<float> luminance_of(const std::vector<float>& rgb) {  // unit: cd/m2
@@ -263,11 +267,16 @@ std::vector<float> Camera::State::gather_light(int index, const LinearFrame* mid
     LinearFrame drawn;
     if (now) drawn = std::move(*now).into_linear_frame();
     const LinearFrame& image = now ? drawn : *middle;
+    const bool sharp = !optics || !optics->defocuses();
+    if (now && sharp && share == 1) {
+      sum = std::move(drawn.rgb);
+      continue;
+    }
     if (sum.empty()) sum.assign(image.rgb.size(), 0);
-    if (optics && optics->defocuses())
-      add_scaled(sum, defocus(image), share);
+    if (sharp)
+      add_scaled(sum, image.rgb, share, spec.threads);
     else
-      add_scaled(sum, image.rgb, share);
+      add_scaled(sum, defocus(image), share, spec.threads);
   }
   if (!renderer.medium().falling().empty()) add_drops(index, middle, time, right, sum);
   return optics ? optics->spread(std::move(sum), right ? 1 : 0) : sum;

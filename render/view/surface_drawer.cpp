@@ -22,12 +22,14 @@ std::vector<float> metric_depth(const std::vector<float>& values, ThreadPool& po
 }
 
 // Along the rays of a pinhole, from planar depth.
-std::vector<float> distances_of(const std::vector<float>& depth, const Intrinsics& k) {
+std::vector<float> distances_of(const std::vector<float>& depth, const Intrinsics& k, ThreadPool& pool) {
   std::vector<float> out(depth.size());
-  for (std::size_t i = 0; i < depth.size(); ++i) {
-    const double u = double(i % std::size_t(k.width)), v = double(i / std::size_t(k.width));
-    out[i] = float(double(depth[i]) * norm(Vec3((u - k.cx) / k.fx, (v - k.cy) / k.fy, 1)));
-  }
+  pool.run(k.height, kRowsAJob, [&](int begin, int end) {
+    std::size_t i = std::size_t(begin) * std::size_t(k.width);
+    for (int v = begin; v < end; ++v)
+      for (int u = 0; u < k.width; ++u, ++i)
+        out[i] = float(double(depth[i]) * norm(Vec3((double(u) - k.cx) / k.fx, (double(v) - k.cy) / k.fy, 1)));
+  });
   return out;
 }
 
@@ -195,8 +197,7 @@ std::vector<float> DrawnSurfaces::take_distances() {
 
 const std::vector<float>& DrawnSurfaces::distances() {
   if (distances_.empty())
-    distances_ =
-        view_.plain() ? distances_of(planar_depth(), view_.intrinsics) : drawer_.rays_->distances();
+    distances_ = view_.plain() ? distances_of(planar_depth(), view_.intrinsics, drawer_.scene_.pool) : drawer_.rays_->distances();
   return distances_;
 }
 

@@ -98,7 +98,7 @@ PreparedScene prepare_scene(const Scene& scene, int threads) {
   out.meshes.resize(scene.meshes.size());
   parallel_for(scene.meshes.size(), threads, [&](std::size_t i) {
     if (!scene.meshes[i]) throw RunError("the scene has a mesh without data");
-    out.meshes[i] = prepare_mesh(*scene.meshes[i]);
+    out.meshes[i] = prepare_mesh(*scene.meshes[i], threads);  // a large one alone takes longer than all others
   });
   number_paints(out);
   std::vector<std::uint32_t> axes;

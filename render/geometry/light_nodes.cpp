@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "kernel/base/parallel.h"
 #include "render/geometry/point_cells.h"
 #include "render/geometry/prepared_mesh.h"
 
@@ -18,6 +19,7 @@ constexpr float kCellShare = 0.4f;              // of the mesh's radius
 constexpr float kGrain = 5e-3f;                 // root of the mean area of triangles, of a heap of grains; unit: m
 constexpr float kGrainsCell = 0.25f, kLeastHeap = 0.3f;  // cell and least radius of such a mesh; unit: m
 constexpr std::size_t kMostOrigins = 8;         // of a point
+constexpr std::size_t kNodesAJob = 1 << 13;
 constexpr float kAside = 0.3f;                  // of origins from their node; unit: a step
 
 struct Corners {
@@ -200,7 +202,7 @@ void weigh_points(const Candidates& candidates, float cell, LightNode& node) {
 }
 
 // Nodes in one cell of space choose from the same points, which are looked for once.
-void weigh_all(PreparedMesh& mesh, float cell) {
+void weigh_all(PreparedMesh& mesh, float cell, int threads) {
   std::vector<PointCells::Point> points;
   for (std::uint32_t i = 0; i < mesh.bake_points.size(); ++i) points.push_back({mesh.bake_points[i].position, i});
   const PointCells grid(cell, points);
@@ -208,18 +210,21 @@ void weigh_all(PreparedMesh& mesh, float cell) {
   for (std::uint32_t i = 0; i < mesh.light_nodes.size(); ++i)
     order.emplace_back(grid.cell_of(mesh.light_nodes[i].position), i);
   std::sort(order.begin(), order.end());
-  Candidates candidates;
-  const auto add = [&](std::uint32_t i) { candidates.add(mesh.bake_points[i], i); };
-  for (std::size_t n = 0; n < order.size(); ++n) {
-    LightNode& node = mesh.light_nodes[order[n].second];
-    if (n == 0 || order[n].first != order[n - 1].first) {
-      candidates.clear();
-      for (int reach = 2; candidates.count == 0 && reach < 256; reach *= 2) grid.near(node.position, reach, add);
-      if (candidates.count == 0)
-        for (std::uint32_t i = 0; i < mesh.bake_points.size(); ++i) add(i);
+  parallel_for((order.size() + kNodesAJob - 1) / kNodesAJob, threads, [&](std::size_t job) {
+    Candidates candidates;
+    const auto add = [&](std::uint32_t i) { candidates.add(mesh.bake_points[i], i); };
+    const std::size_t begin = job * kNodesAJob, end = std::min(begin + kNodesAJob, order.size());
+    for (std::size_t n = begin; n < end; ++n) {
+      LightNode& node = mesh.light_nodes[order[n].second];
+      if (n == begin || order[n].first != order[n - 1].first) {
+        candidates.clear();
+        for (int reach = 2; candidates.count == 0 && reach < 256; reach *= 2) grid.near(node.position, reach, add);
+        if (candidates.count == 0)
+          for (std::uint32_t i = 0; i < mesh.bake_points.size(); ++i) add(i);
+      }
+      weigh_points(candidates, cell, node);
     }
-    weigh_points(candidates, cell, node);
-  }
+  });
 }
 
 // A heap of grains takes the light of the floor around it: at a point for each of its parts, light would take
@@ -255,7 +260,7 @@ LightNodes find_light_nodes(const PreparedMesh& mesh, std::uint32_t triangle, fl
   return {{t.first_node + light_node_index(n, i, j), right, above}, {1 - fx - fy, fx, fy}};
 }
 
-void make_light_nodes(PreparedMesh& mesh, std::size_t finest_triangles, float spacing, float stated_cell) {
+void make_light_nodes(PreparedMesh& mesh, std::size_t finest_triangles, float spacing, float stated_cell, int threads) {
   add_vertex_nodes(mesh);
   std::vector<std::uint8_t> finest(mesh.vertices.size(), 0);
   for (std::size_t t = 0; t < finest_triangles; ++t)
@@ -266,7 +271,7 @@ void make_light_nodes(PreparedMesh& mesh, std::size_t finest_triangles, float sp
     if (i >= finest.size() || finest[i]) nodes.push_back(i);
   const float cell = stated_cell > 0 ? stated_cell : choose_cell(mesh, finest_triangles);
   choose_points(mesh, nodes, cell);
-  weigh_all(mesh, cell);
+  weigh_all(mesh, cell, threads);
 }
 
 void make_ground_nodes(PreparedMesh& mesh, float spacing, float longest) {

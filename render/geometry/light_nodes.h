@@ -52,7 +52,7 @@ LightNodes find_light_nodes(const PreparedMesh& mesh, std::uint32_t triangle, fl
 // Makes the nodes and points of a mesh that has its vertices and triangles. Points are chosen on the first
 // `finest_triangles` triangles. spacing: between nodes along a long edge; cell: of space, one point each; 0: by the
 // mesh's size; unit: m.
-void make_light_nodes(PreparedMesh& mesh, std::size_t finest_triangles, float spacing, float cell = 0);
+void make_light_nodes(PreparedMesh& mesh, std::size_t finest_triangles, float spacing, float cell = 0, int threads = 1);
 
 // The same for a level ground, whose nodes near the middle are points themselves: triangles with an edge
 // longer than `longest` get no further nodes. unit: m.

@@ -179,12 +179,12 @@ int dominant_direction(const Vec3f& n) {
   return n.z > 0 ? 4 : 5;
 }
 
-PreparedMesh prepare_mesh(const SceneMesh& mesh) {
+PreparedMesh prepare_mesh(const SceneMesh& mesh, int threads) {
   PreparedMesh out;
   for (const TriangleMesh& level : mesh.levels) append_level(level, mesh.light_spacing, out);
   if (out.vertices.empty()) throw RunError("a mesh of the scene has no triangles");
   const float coarse = float(mesh.light_spacing);
-  make_light_nodes(out, out.levels.front().triangle_count, coarse > 0 ? coarse : kLightSpacing, coarse);
+  make_light_nodes(out, out.levels.front().triangle_count, coarse > 0 ? coarse : kLightSpacing, coarse, threads);
   out.light_nodes.shrink_to_fit();
   return out;
 }

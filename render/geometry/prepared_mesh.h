@@ -67,7 +67,7 @@ struct PreparedMesh {
 int dominant_direction(const Vec3f& n);
 
 // Throws RunError for a surface name that is no known look, naming it and the known ones.
-PreparedMesh prepare_mesh(const SceneMesh& mesh);
+PreparedMesh prepare_mesh(const SceneMesh& mesh, int threads = 1);
 
 // The ground: z = 0, fine over the rectangle `around` (by its x and y) and ever coarser to 4 km.
 PreparedMesh prepare_ground(const Aabb& around);

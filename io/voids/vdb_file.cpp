@@ -4,6 +4,7 @@
 #include <openvdb/io/Compression.h>
 #include <openvdb/io/DelayedLoadMetadata.h>
 #include <openvdb/io/GridDescriptor.h>
+#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,6 @@
 #include <vector>
 
 #include "io/base/atomic_file.h"
-#include "io/voids/vdb_grids.h"
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
 

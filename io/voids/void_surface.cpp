@@ -1,5 +1,6 @@
 #include "io/voids/void_files.h"
 
+#include <openvdb/openvdb.h>
 #include <openvdb/tools/Prune.h>
 #include <openvdb/tools/VolumeToMesh.h>
 
@@ -10,7 +11,6 @@
 #include <tuple>
 
 #include "io/base/atomic_file.h"
-#include "io/voids/vdb_grids.h"
 #include "kernel/base/hash.h"
 
 namespace rubble {

@@ -97,7 +97,8 @@ void break_end(Cell& cell, int axis, int end, double lean, Surface surface, Rand
                              std::fabs(normal[v]) * (box.max[v] - box.min[v]));
   cell.push_back({normal, dot(normal, tip) - back, surface});
   second[axis] = end;
-  second[u] = (random.uniform() < 0.5 ? 1 : -1) * random.uniform(0.6, 1.0);
+  const double way = random.uniform() < 0.5 ? 1 : -1;
+  second[u] = way * random.uniform(0.6, 1.0);
   second[v] = random.uniform(-0.5, 0.5);
   second = normalized(second);
   Vec3 corner = tip;

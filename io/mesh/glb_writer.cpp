@@ -203,7 +203,8 @@ class GlbBuilder {
     add(appears, size);
     if (body.gone != TrackBody::kStays) add(track.times[body.gone], 0);
     if (times.size() == 1) return;
-    add_channel(node, "scale", "STEP", add_times(times), add_floats(sizes, "VEC3"), clip);
+    const int output = add_floats(sizes, "VEC3"), input = add_times(times);  // one after the other, for any compiler
+    add_channel(node, "scale", "STEP", input, output, clip);
   }
 
   static void add_channel(std::size_t node, const char* path, const char* interpolation, int input,

@@ -134,7 +134,8 @@ class Dropper {
  private:
   // A plane on the highest of what is below, with one corner or edge that curls up.
   bool lay_paper(const Cut& cut, const RayHit& below, double yaw, RandomStream& random, SheetGrid& grid) const {
-    const double curl = random.uniform() * random.uniform() * 0.5, way = random.uniform(-portable::kPi, portable::kPi);
+    const double most = random.uniform(), curl = most * random.uniform() * 0.5;
+    const double way = random.uniform(-portable::kPi, portable::kPi);
     const auto support = find_support(ground_.queries, below, 0.8 * std::min(cut.x, cut.y), yaw, kPaperGap);
     if (!support) return false;
     const Tangents t = make_tangents(support->normal, yaw);

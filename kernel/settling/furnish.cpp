@@ -114,7 +114,8 @@ class Furnisher {
 
   void place(const Furnishing& item, const Footprint& room, double z) {
     for (int t = 0; t < kTries; ++t) {
-      const double yaw = (90 * double(random_.below(4)) + kTurn * random_.normal()) * portable::kPi / 180;
+      const double quarter = 90 * double(random_.below(4));
+      const double yaw = (quarter + kTurn * random_.normal()) * portable::kPi / 180;
       const Aabb& e = bounds_[item.kind];
       const Quat turned = portable::quat_from_rpy(0, 0, yaw);
       Aabb turned_bounds;

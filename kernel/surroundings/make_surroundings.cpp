@@ -209,7 +209,7 @@ class Site {
       const portable::SinCos t = portable::sincos(random.uniform(0, 2 * portable::kPi));
       const double r = (spec_.reach + 340) * std::sqrt(random.uniform(0.02, 1)), x = r * t.cos, y = r * t.sin;
       const std::uint32_t mesh = meshes[random.below(random.uniform() < 0.85 ? 8 : 12)];
-      const double yaw = kHalfTurn / 2 * double(random.below(4)) + random.uniform(-0.15, 0.15);
+      const double quarter = kHalfTurn / 2 * double(random.below(4)), yaw = quarter + random.uniform(-0.15, 0.15);
       const bool corridor = std::fabs(y - street_.middle()) < 62 && r < spec_.reach + 320;
       if (corridor || (y > 0 && y < behind + 34) || !lies_free(x, y, 60)) continue;
       put(SurroundingKind::skyline, mesh, {x, y, 0}, yaw);

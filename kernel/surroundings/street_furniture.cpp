@@ -12,8 +12,10 @@ void add_boards(double length, MeshBuilder& out, RandomStream& random) {
   out.look("timber");
   for (double x = 0; x < length; x += 2) out.box({x, 0.02, -0.5}, {x + 0.09, 0.11, 1.75});
   for (const double z : {0.4, 1.45}) out.box({0, 0, z}, {length, 0.03, z + 0.09});
-  for (double x = 0.02; x + 0.12 < length; x += 0.135)
-    out.box({x, -0.022, 0.04 + random.uniform(0, 0.03)}, {x + 0.12, 0, 1.78 + random.uniform(-0.03, 0.03)});
+  for (double x = 0.02; x + 0.12 < length; x += 0.135) {
+    const double top = 1.78 + random.uniform(-0.03, 0.03), foot = 0.04 + random.uniform(0, 0.03);
+    out.box({x, -0.022, foot}, {x + 0.12, 0, top});
+  }
 }
 
 // Panels of welded mesh between posts, as around sites.

@@ -22,7 +22,7 @@ void add_leaves(const std::vector<Clump>& clumps, int count, double size, Random
     const int here = int(count * c.radius * c.radius / area);
     for (int i = 0; i < here; ++i) {
       const Vec3 way = random.direction();
-      const double r = c.radius * (1 - 0.45 * random.uniform() * random.uniform());
+      const double in = 0.45 * random.uniform(), r = c.radius * (1 - in * random.uniform());
       const Vec3 at = c.middle + Vec3(way.x, way.y, way.z * 0.8) * r;
       // Leaves look up and outwards, each its own way.
       const Vec3 normal = normalized(way * 0.7 + Vec3(0, 0, 0.55) + random.direction() * 0.9);
@@ -55,7 +55,8 @@ SurroundingMesh make_tree(double height, RandomStream& random) {
   MeshBuilder wood;
   wood.look("asphalt");  // as dark and as rough as bark
   const double radius = 0.019 * height + 0.03, bole = height * random.uniform(0.28, 0.36);
-  Vec3 lean = normalized(Vec3(random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05), 1));
+  const double aside = random.uniform(-0.05, 0.05), ahead = random.uniform(-0.05, 0.05);
+  Vec3 lean = normalized(Vec3(ahead, aside, 1));
   const Vec3 fork = lean * bole;
   wood.tube(Vec3(0, 0, -0.4), Vec3(0, 0, 0.12), radius * 1.5, radius * 1.12, 9);
   wood.tube(Vec3(0, 0, 0.1), fork, radius * 1.12, radius * 0.85, 9);

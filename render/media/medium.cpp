@@ -196,7 +196,8 @@ void Medium::add_burst(std::uint64_t burst, double seconds, std::vector<DustPuff
                       (1 - quick::exp(-age / kRiseTime));
   const double thrown = dust.speed * kThrowTime * (1 - quick::exp(-age / kThrowTime));
   for (int i = 0; i < kPuffs; ++i) {
-    Vec3 throw_out = random.direction() * random.uniform(0.2, 1);
+    const double share = random.uniform(0.2, 1);
+    Vec3 throw_out = random.direction() * share;
     throw_out.z = std::fabs(throw_out.z) * 0.6;
     const double r = dust.radius * random.uniform(0.6, 1.2);
     DustPuff puff;

@@ -18,7 +18,12 @@ mrpt::Clock::time_point mrpt_time(std::int64_t stamp_ns) {
 mrpt::poses::CPose3D mrpt_pose(const Pose& pose) {
   const Quat& q = pose.rotation;
   const Vec3& t = pose.translation;
-  return {mrpt::math::CQuaternionDouble(q.w, q.x, q.y, q.z), t.x, t.y, t.z};
+  // The matrix is found here: MRPT goes by angles, whose sines and cosines depend on the C library and the processor.
+  mrpt::math::CMatrixDouble33 rotation;
+  mrpt::math::CQuaternionDouble(q.w, q.x, q.y, q.z).rotationMatrixNoResize(rotation);
+  mrpt::math::CVectorFixedDouble<3> translation;
+  translation[0] = t.x, translation[1] = t.y, translation[2] = t.z;
+  return {rotation, translation};
 }
 
 mrpt::img::TCamera mrpt_camera(const Intrinsics& k) {

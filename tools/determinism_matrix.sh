@@ -200,19 +200,50 @@ preload() {
   c++ -std=c++17 -O1 -fPIC -shared "tests/determinism/$1.cpp" -o "$folder/$1.so" -ldl
 }
 
-# An emulator starts no jobs of its own: single missions, against those that this machine has just run.
-older_processor() {
-  condition="Nehalem, qemu"
+# emulate ARCHITECTURE TARGET CONDITION NAMES COMMAND...: an emulator starts no jobs of its own, so single missions are made again by
+# the program that COMMAND runs, against those that this machine has just run.
+emulate() {
+  label_a=$1 label_d=$2 label_e=$3 names=$4
+  shift 4
   rm -rf "$folder/older"
-  for name in $1; do
-    if ! RUBBLE_CACHE="$folder/older/cache" qemu-x86_64 -cpu Nehalem "$program" remake \
-      "$folder/missions/out/$name/manifest.json" --out "$folder/older/$name" >"$folder/missions.txt" 2>&1; then
-      fail x86_64 g++ -O2 x86-64 "$condition" "DIFFERENT: $name"
+  for name in $names; do
+    echo "missions: $label_e, $name" >&2
+    if ! RUBBLE_CACHE="$folder/older/cache" "$@" remake "$folder/missions/out/$name/manifest.json" --out "$folder/older/$name" \
+      >"$folder/missions.txt" 2>&1; then
+      fail "$label_a" g++ -O2 "$label_d" "$label_e" "DIFFERENT: $name"
       sed 's/^/    /' "$folder/missions.txt" | tail -5 >>"$table"
-      return 0
     fi
   done
-  row x86_64 g++ -O2 x86-64 "$condition" same
+  grep -q "$label_e .*DIFFERENT" "$table" || row "$label_a" g++ -O2 "$label_d" "$label_e" same
+}
+
+# The whole program for arm64, by an emulator. Debian's Simbody of arm64 fuses: the mission of a robot is left out.
+arm64_program() {
+  condition="missions, qemu"
+  packages="libsimbody-dev libxxhash-dev libssl-dev libegl-dev libgl-dev libembree-dev libassimp-dev libdraco-dev libexpat1-dev
+    libopencv-core-dev libopencv-imgproc-dev libmrpt-obs-dev libmrpt-maps-dev libmrpt-nav-dev libpng-dev libjpeg62-turbo-dev libtiff-dev
+    libwebp-dev libopenexr-dev liblz4-dev libzstd-dev zlib1g-dev nlohmann-json3-dev libopenvdb-dev libboost-dev liboctomap-dev
+    libompl-dev libeigen3-dev liblua5.4-dev libyaml-cpp-dev libcli11-dev libsdl2-dev libccd-dev coinor-libclp-dev"
+  # shellcheck disable=SC2086  # names
+  if ! command -v qemu-aarch64 >/dev/null || ! tools/arm64_sysroot.sh "$folder/arm64-program" $packages >"$folder/arm64-program.log" 2>&1
+  then
+    fail aarch64 g++ -O2 armv8-a "$condition" "NOT POSSIBLE: see $folder/arm64-program.log"
+    return 0
+  fi
+  echo "building program-aarch64" >&2
+  cmake --preset release -B "$folder/program-aarch64" -DBUILD_TESTING=OFF "-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/Arm64Toolchain.cmake" \
+    "-DRUBBLE_ARM64_ROOT=$folder/arm64-program/root" "-DRUBBLE_ASSET_MAKER=$PWD/build/release/rubble_make_assets" \
+    >"$folder/program-aarch64.log" 2>&1 || true
+  # rubble: the target, not `program`, whose manual is printed by the program.
+  if ! cmake --build "$folder/program-aarch64" --target rubble >>"$folder/program-aarch64.log" 2>&1; then
+    tail -20 "$folder/program-aarch64.log" >&2
+    fail aarch64 g++ -O2 armv8-a "$condition" "DOES NOT BUILD"
+    return 0
+  fi
+  cp -r build/release/assets build/release/share "$folder/program-aarch64/"
+  row aarch64 g++ -O2 armv8-a "scanning_crawler" "LEFT OUT (Debian's Simbody fuses)"
+  emulate aarch64 armv8-a "$condition" "$(cd "$folder/missions/out" && echo ./*/ | sed 's#\./##g; s#/##g; s/scanning_crawler//')" \
+    qemu-aarch64 -L "$folder/arm64-program/root" "$folder/program-aarch64/rubble"
 }
 
 whole_missions() {
@@ -232,7 +263,7 @@ whole_missions() {
   run_missions g++ -O2 x86-64 "no Mesa, 3 threads" "$program" "--threads 3" \
     env RUBBLE_EGL_LIBRARY=/nonexistent/libEGL.so.1
   if command -v qemu-x86_64 >/dev/null; then
-    older_processor "lidar stereo painted"
+    emulate x86_64 x86-64 "Nehalem, qemu" "lidar stereo painted" qemu-x86_64 -cpu Nehalem "$program"
   else
     fail x86_64 g++ -O2 x86-64 "Nehalem, qemu" "NOT POSSIBLE: install tools/packages-determinism.txt"
   fi
@@ -251,6 +282,7 @@ whole_missions() {
     fi
     run_missions "$1" "$2" "$3" missions "$folder/$name/rubble" "--threads 2" env
   done
+  [ "$arm64" = no ] || arm64_program
 }
 
 if [ "$kernel" = yes ]; then

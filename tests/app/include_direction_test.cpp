@@ -316,7 +316,7 @@ TEST(IncludeDirection, ThirdPartiesStayBehindTheirDoor) {
 }
 
 // Of the C library and the system: no library of others, so no door.
-const Prefixes kSystemHeaders{"sys/",    "unistd.h", "fcntl.h",  "poll.h",    "dlfcn.h", "time.h",
+const Prefixes kSystemHeaders{"sys/",    "unistd.h", "fcntl.h",  "poll.h",    "dlfcn.h", "time.h", "malloc.h",
                               "net",     "arpa/",    "linux/",   "dirent.h",  "spawn.h", "regex.h", "termios.h",
                               "pthread", "sched.h",  "signal.h", "immintrin.h",
                               "emmintrin.h", "xmmintrin.h", "sanitizer/common_interface_defs.h",

@@ -38,7 +38,7 @@ ExitCode check_standard_output(ExitCode code) {
 }
 
 // Images of several megabytes come and go with each frame. Memory that goes back to the system in between costs a page fault for
-// each of its pages the next time: a fifth of the time of recording.
+// each of its pages the next time: a sixth of the time of recording.
 void keep_freed_memory() {
 #if defined(__GLIBC__)
   mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the largest that it takes

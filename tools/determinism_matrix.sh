@@ -8,7 +8,7 @@
 # --missions, --kernel: one half alone. Missions are of build/release/rubble.
 # --programs: builds the program by other flags and compilers, too; hours on two processors.
 # --simbody: builds Simbody for arm64 without fused multiply-adds first, half an hour. Without it the
-# scene with joints is left out of the arm64 rows.
+# scene with joints and the mission of a robot are left out of the arm64 rows.
 # Exit status: 0 all equal; 1 something differs, does not build or does not run; 2 bad usage.
 set -eu
 cd "$(dirname "$0")/.."
@@ -138,26 +138,38 @@ pack() {
   fi
 }
 
-arm64_rows() {
+# arm64_root CONDITION: Debian's packages for arm64 in $folder/arm64/root, and with --simbody a Simbody that does not fuse.
+arm64_root() {
+  condition=$1
+  packages="libsimbody-dev libxxhash-dev libssl-dev"
+  [ "$programs" = no ] || packages="$packages libegl-dev libgl-dev libembree-dev libassimp-dev libdraco-dev libexpat1-dev
+    libopencv-core-dev libopencv-imgproc-dev libmrpt-obs-dev libmrpt-maps-dev libmrpt-nav-dev libpng-dev libjpeg62-turbo-dev libtiff-dev
+    libwebp-dev libopenexr-dev liblz4-dev libzstd-dev zlib1g-dev nlohmann-json3-dev libopenvdb-dev libboost-dev liboctomap-dev
+    libompl-dev libeigen3-dev liblua5.4-dev libyaml-cpp-dev libcli11-dev libsdl2-dev libccd-dev coinor-libclp-dev"
   if ! command -v aarch64-linux-gnu-g++ >/dev/null || ! command -v qemu-aarch64 >/dev/null; then
-    fail aarch64 g++ "" "" "" "NOT POSSIBLE: install tools/packages-determinism.txt"
-    return 0
+    fail aarch64 g++ "" "" "$condition" "NOT POSSIBLE: install tools/packages-determinism.txt"
+    return 1
   fi
-  if ! tools/arm64_sysroot.sh "$folder/arm64" >"$folder/arm64.log" 2>&1; then
+  # shellcheck disable=SC2086  # names
+  if ! tools/arm64_sysroot.sh "$folder/arm64" $packages >"$folder/arm64.log" 2>&1; then
     tail -20 "$folder/arm64.log" >&2
-    fail aarch64 g++ "" "" "" "NOT POSSIBLE: no arm64 packages; see $folder/arm64.log"
-    return 0
+    fail aarch64 g++ "" "" "$condition" "NOT POSSIBLE: no arm64 packages; see $folder/arm64.log"
+    return 1
   fi
-  if [ "$simbody" = yes ] && [ ! -e "$folder/arm64/root/simbody-without-fma" ]; then
-    if ! tools/build_simbody.sh "$folder/simbody" --arm64 "$folder/arm64" >"$folder/simbody.log" 2>&1
-    then
-      tail -20 "$folder/simbody.log" >&2
-      fail aarch64 g++ "" "" "" "NOT POSSIBLE: Simbody; see $folder/simbody.log"
-      return 0
-    fi
-  fi
-  if [ ! -e "$folder/arm64/root/simbody-without-fma" ]; then
-    # Debian's Simbody of arm64 fuses: the promise holds for free pieces.
+  if [ "$simbody" = no ] || [ -e "$folder/arm64/root/simbody-without-fma" ]; then return 0; fi
+  echo "building Simbody for arm64" >&2
+  tools/build_simbody.sh "$folder/simbody" --arm64 "$folder/arm64" >"$folder/simbody.log" 2>&1 && return 0
+  tail -20 "$folder/simbody.log" >&2
+  fail aarch64 g++ "" "" "$condition" "NOT POSSIBLE: Simbody; see $folder/simbody.log"
+  return 1
+}
+
+# Whether the Simbody of the arm64 rows fuses, as Debian's does: the promise holds for free pieces.
+fuses() { [ ! -e "$folder/arm64/root/simbody-without-fma" ]; }
+
+arm64_rows() {
+  arm64_root "" || return 0
+  if fuses; then
     left_out=articulated
     grep -v "^$left_out " "$golden" >"$folder/free.txt"
     golden=$folder/free.txt
@@ -217,22 +229,13 @@ emulate() {
   grep -q "$label_e .*DIFFERENT" "$table" || row "$label_a" g++ -O2 "$label_d" "$label_e" same
 }
 
-# The whole program for arm64, by an emulator. Debian's Simbody of arm64 fuses: the mission of a robot is left out.
+# The whole program for arm64, by an emulator.
 arm64_program() {
   condition="missions, qemu"
-  packages="libsimbody-dev libxxhash-dev libssl-dev libegl-dev libgl-dev libembree-dev libassimp-dev libdraco-dev libexpat1-dev
-    libopencv-core-dev libopencv-imgproc-dev libmrpt-obs-dev libmrpt-maps-dev libmrpt-nav-dev libpng-dev libjpeg62-turbo-dev libtiff-dev
-    libwebp-dev libopenexr-dev liblz4-dev libzstd-dev zlib1g-dev nlohmann-json3-dev libopenvdb-dev libboost-dev liboctomap-dev
-    libompl-dev libeigen3-dev liblua5.4-dev libyaml-cpp-dev libcli11-dev libsdl2-dev libccd-dev coinor-libclp-dev"
-  # shellcheck disable=SC2086  # names
-  if ! command -v qemu-aarch64 >/dev/null || ! tools/arm64_sysroot.sh "$folder/arm64-program" $packages >"$folder/arm64-program.log" 2>&1
-  then
-    fail aarch64 g++ -O2 armv8-a "$condition" "NOT POSSIBLE: see $folder/arm64-program.log"
-    return 0
-  fi
+  arm64_root "$condition" || return 0
   echo "building program-aarch64" >&2
   cmake --preset release -B "$folder/program-aarch64" -DBUILD_TESTING=OFF "-DCMAKE_TOOLCHAIN_FILE=$PWD/cmake/Arm64Toolchain.cmake" \
-    "-DRUBBLE_ARM64_ROOT=$folder/arm64-program/root" "-DRUBBLE_ASSET_MAKER=$PWD/build/release/rubble_make_assets" \
+    "-DRUBBLE_ARM64_ROOT=$folder/arm64/root" "-DRUBBLE_ASSET_MAKER=$PWD/build/release/rubble_make_assets" \
     >"$folder/program-aarch64.log" 2>&1 || true
   # rubble: the target, not `program`, whose manual is printed by the program.
   if ! cmake --build "$folder/program-aarch64" --target rubble >>"$folder/program-aarch64.log" 2>&1; then
@@ -241,9 +244,12 @@ arm64_program() {
     return 0
   fi
   cp -r build/release/assets build/release/share "$folder/program-aarch64/"
-  row aarch64 g++ -O2 armv8-a "scanning_crawler" "LEFT OUT (Debian's Simbody fuses)"
-  emulate aarch64 armv8-a "$condition" "$(cd "$folder/missions/out" && echo ./*/ | sed 's#\./##g; s#/##g; s/scanning_crawler//')" \
-    qemu-aarch64 -L "$folder/arm64-program/root" "$folder/program-aarch64/rubble"
+  names=$(cd "$folder/missions/out" && echo ./*/ | sed 's#\./##g; s#/##g')
+  if fuses; then
+    row aarch64 g++ -O2 armv8-a scanning_crawler "LEFT OUT (run with --simbody)"
+    names=$(echo "$names" | sed 's/scanning_crawler//')
+  fi
+  emulate aarch64 armv8-a "$condition" "$names" qemu-aarch64 -L "$folder/arm64/root" "$folder/program-aarch64/rubble"
 }
 
 whole_missions() {

@@ -2,7 +2,7 @@
 """Plays the baselines of `rubble bench search` at each difficulty, and perhaps an agent, and writes their rows into the
 table of a document, between its marks. Rows of what was not played stay.
 
-usage: tools/search_table.py [--seeds 1..30] [--baselines oracle frontier] [--agent COMMAND --name NAME]
+usage: tools/search_table.py [--seeds 1..30] [--baselines oracle,frontier] [--agent COMMAND --name NAME]
        [--out out/search] [--reuse] docs/explanation/search.md
 """
 import argparse
@@ -46,16 +46,27 @@ def rank(key):
     return DIFFICULTIES.index(difficulty), BASELINES.index(name) if name in BASELINES else len(BASELINES), name
 
 
+def some_of(known):
+    """The reader of an option that takes names after commas."""
+    def read(text):
+        names = tuple(text.split(","))
+        for name in names:
+            if name not in known:
+                raise argparse.ArgumentTypeError(f"expected some of {','.join(known)}, got '{name}'")
+        return names
+    return read
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seeds", default="1..30")
-    parser.add_argument("--baselines", nargs="*", default=BASELINES, choices=BASELINES)
+    parser.add_argument("--baselines", type=some_of(BASELINES), default=BASELINES)
     parser.add_argument("--agent")
     parser.add_argument("--name", default="examples/search/agent.py", help="of the agent, in the table")
     parser.add_argument("--out", default="out/search")
     parser.add_argument("--program", default="build/release/rubble")
     parser.add_argument("--reuse", action="store_true", help="take the tables that are in the folder already")
-    parser.add_argument("--difficulties", nargs="+", default=DIFFICULTIES, choices=DIFFICULTIES)
+    parser.add_argument("--difficulties", type=some_of(DIFFICULTIES), default=DIFFICULTIES)
     parser.add_argument("document")
     args = parser.parse_args()
     rows = {key_of(line): line for line in read_between_marks(args.document, "search").splitlines()

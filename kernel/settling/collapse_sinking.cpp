@@ -14,6 +14,8 @@ namespace {
 
 // Of a body that came off late: as fast as a footing of 2 m within its 2 s. unit: m/s
 constexpr double kDescent = 1;
+// A way left that is no more than rounding: nothing rests while its footings go on and on. unit: m
+constexpr double kArrived = 1e-9;
 
 }  // namespace
 
@@ -84,7 +86,7 @@ void Collapse::Impl::ride() {
       if (footing != sinking.end() && !status[i].broken) depth = std::min(depth, footing->second);
     }
     const double down = std::min(depth - lowered(lead), kDescent * options.step);
-    if (!(down > 0)) continue;
+    if (!(down > kArrived)) continue;
     world.structures().move_fixed(first + lead, {0, 0, -down});
     rides = true;
   }

@@ -123,5 +123,22 @@ TEST(Sinking, PrecastBeamsComeOffTheSeatsOfASinkingColumn) {
   EXPECT_GT(beams, 0);
 }
 
+// What goes down with its footings arrives: a rest of the way that is only rounding woke the pile in each step.
+TEST(Sinking, RestsAtEveryDepth) {
+  BuildingSpec b;
+  b.kind = BuildingKind::bridge;
+  b.storeys = b.bays_y = 1, b.bays_x = 2;
+  b.span_x = b.span_y = 3;
+  for (const double piece : {1.2, 1.6}) {
+    for (const double depth : {0.15, 0.2, 0.3, 0.4, 0.45, 0.5}) {
+      b.piece = piece;
+      b.cause.sinking = {{1, 0, depth, {}}, {1, 1, depth, {}}};
+      const PileState state = settle(b);
+      EXPECT_TRUE(state.settled) << piece << " " << depth;
+      EXPECT_LT(state.simulated, 20) << piece << " " << depth;
+    }
+  }
+}
+
 }  // namespace sinking_test
 }  // namespace rubble

@@ -26,7 +26,7 @@ PILES = {
     "joined": {"@pile": "rubble.join(rubble.collapse.lean_to { length = 2, width = 1.4, height = 1, debris = " + FEW + " }, "
                         "rubble.collapse.heap { layers = 1, pieces_per_layer = 4, length = 1, width = 1, height = 1, "
                         "position = { 0, 3, 0 } })"},
-    "residential": {"@packs": ["residential"], "pile": dict(LOOSE, pieces_per_layer=8)},
+    "residential": {"@packs": ["residential"], "pile": dict(LOOSE, pieces_per_layer=5)},
     "parking": {"@packs": ["concrete", "parking"], "pile": dict(LOOSE, pieces_per_layer=5)},
     "articulated": {"pile": dict(LOOSE, pieces_per_layer=5, mix=[{"asset": "hinged_slab"}, {"asset": "half_brick"}])},
 }

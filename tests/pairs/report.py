@@ -68,7 +68,8 @@ def write(path, summary, answers, program, date):
     lines += ["| %s | %s | %s |" % (named(a, x), named(b, y), words) for a, x, b, y, words in rules.REFUSED]
     lines += ["", "### What has no meaning", "", "| one | other | why |", "|---|---|---|"]
     lines += ["| %s | %s | %s |" % (named(a, x), named(b, y), why) for a, x, b, y, why in rules.MEANINGLESS]
-    lines += ["", "### Known failures", "", "| name | missions | cause |", "|---|---|---|"]
+    if known_failures.KNOWN:
+        lines += ["", "### Known failures", "", "| name | missions | cause |", "|---|---|---|"]
     lines += ["| `%s` | %d | %s |" % (name, s["known"].get(name, 0), cause) for name, _, _, _, cause in known_failures.KNOWN]
     document_marks.write_between_marks(path, "pairs", "\n".join(lines[1:]) + "\n")
 

@@ -192,12 +192,13 @@ void save(const ResolvedMission& mission, const PileState& state, std::uint64_t 
   folder.note_pile(work);
 }
 
-// Strews fines over the pile, with what a person sees of it.
-void strew(const ResolvedMission& mission, RunContext& context, PileState& pile) {
+// Strews fines over the pile, with what a person sees of it. A million takes most of a minute, so a signal ends it.
+void strew(const ResolvedMission& mission, RunContext& context, PileState& pile, const std::string& folder) {
   const int amount = mission.scenario.fines.amount;
   if (amount == 0) return;
   context.progress.start("fines");
   const auto show = [&](double done, int strewn) {
+    throw_if_stopped(folder);
     context.progress.update(done, std::to_string(strewn) + " of " + std::to_string(amount));
   };
   const std::string warning = lay_fines(mission.scenario.fines, mission.pile_seed, mission.assets, context.threads(), pile, show);
@@ -245,7 +246,7 @@ SettledPile settle(const ResolvedMission& mission, RunFolder& folder, RunContext
   SettledPile settled = loaded ? load(mission.scenario.fines, recorded, folder)
                                : settle_from_checkpoint_or_start(mission, pile, folder, context);
   throw_if_stopped(folder.path());
-  complete_pile(mission, context, settled.state, loaded);
+  complete_pile(mission, context, settled.state, loaded, folder.path());
   add_pile_metrics(settled.state, mission.assets, settled.metrics);
   if (!loaded && recorded) save_track(settled.track, folder.file("track.bin"));
   if (!loaded) save(mission, settled.state, work, folder);
@@ -287,11 +288,11 @@ PileState settle_pieces(World& world, const ResolvedMission& mission, const Pile
   return resume_settling(world, from, pile, options, step, observe);
 }
 
-void complete_pile(const ResolvedMission& mission, RunContext& context, PileState& pile, bool loaded) {
+void complete_pile(const ResolvedMission& mission, RunContext& context, PileState& pile, bool loaded, const std::string& folder) {
   note_standing_building(mission, pile, context);
   if (!loaded) add_victims(mission, context.threads(), pile);
   context.progress.finish(summarize_settling(pile, loaded));
-  if (!loaded) strew(mission, context, pile);
+  if (!loaded) strew(mission, context, pile, folder);
   lay_surroundings(mission.scenario, mission.assets, pile);
 }
 

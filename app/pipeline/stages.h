@@ -59,8 +59,10 @@ SettledPile settle_in_memory(const ResolvedMission& mission, RunContext& context
 PileState settle_pieces(World& world, const ResolvedMission& mission, const Pile& pile, const SettleOptions& options,
                         const SettleCallback& step, const WorldObserver& observe = {});
 // The second: all that comes when the pile rests, for runs, runs that go on, and drives: a warning of a building that
-// stands, victims, fines, surroundings. loaded: the pile has its victims and fines already.
-void complete_pile(const ResolvedMission& mission, RunContext& context, PileState& pile, bool loaded = false);
+// stands, victims, fines, surroundings. loaded: the pile has its victims and fines already. folder: of the run, where there is
+// one. Throws Stopped when a signal comes while fines are strewn.
+void complete_pile(const ResolvedMission& mission, RunContext& context, PileState& pile, bool loaded = false,
+                   const std::string& folder = {});
 
 // Puts the mission's victims into a settled pile. Throws InputError, with the line of the script, when its voids have no
 // room for them.

@@ -37,9 +37,6 @@ struct AirLight {
   // Between points, or of the border's nearest outside.
   Vec3f at(const Vec3f& point) const { return at(radiance.data(), point); }
   Vec3f nearest(const Vec3f& point) const;  // of the box of the grid
-  Vec3f direct_at(std::size_t light, const Vec3f& point) const {
-    return direct.empty() ? Vec3f() : at(direct.data() + light * radiance.size(), point);
-  }
 
  private:
   Vec3f at(const Vec3f* grid, const Vec3f& point) const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <set>
 
@@ -179,6 +180,17 @@ TEST(FinesRun, FileGivesBackWhatWasSavedAndRefusesWhatIsNotWhole) {
   EXPECT_THROW(load_fines(file, settled.pile.pieces.size()), InputError);
   write_file(file, bytes.substr(0, bytes.size() / 2));
   EXPECT_THROW(load_fines(file, settled.pile.pieces.size()), InputError);
+}
+
+// A million on so little ground takes minutes.
+TEST(FinesRun, ASignalEndsTheStrewing) {
+  const ScratchFolder folder;
+  write_file(folder / "m.lua", kMission);
+  const Outcome stopped = run_rubble_and_signal("settle " + (folder / "m.lua") + " --set fines.amount=1000000 --out " + (folder / "run"),
+                                                [](const std::string& said) { return said.find("fines ...") != std::string::npos; }, SIGTERM);
+  EXPECT_EQ(stopped.exit_code, 4) << stopped.err;
+  EXPECT_IN("rubble resume " + (folder / "run"), stopped.err);
+  EXPECT_FALSE(fs::exists(folder / "run/pile.bin"));
 }
 
 TEST(FinesRun, MistakesAreShownWithTheirLines) {

@@ -90,6 +90,29 @@ TEST(BuildingKinds, APrecastBeamBreaksAsASimplySupportedOne) {
   EXPECT_NEAR(place_of(limit), 0, 0.01);
 }
 
+// The walls about a room shave its boards off, each along its own edge: strips of a window's width would tear the boards
+// into rows that nothing joins, and rows that lie on one joist tip over it.
+TEST(BuildingKinds, TheBoardsOfARoomAreInOne) {
+  for (const double span : {2.5, 2.9, 3.0, 3.1, 4.3, 6.0}) {
+    for (const int bays : {1, 2}) {
+      BuildingSpec b;
+      b.kind = BuildingKind::masonry;
+      b.storeys = 2, b.bays_x = bays, b.bays_y = 1;
+      b.span_x = b.span_y = span;
+      const Structure s = build_structures(b).whole;
+      int boards = 0;
+      for (const Member& m : s.members) {
+        if (m.joint != MemberJoint::laid) continue;
+        ++boards;
+        EXPECT_NEAR(m.size.x, span - b.wall - 0.02, 1e-9) << m.name;
+        EXPECT_NEAR(m.size.y, span - b.wall - 0.02, 1e-9) << m.name;
+      }
+      EXPECT_EQ(boards, b.storeys * bays);
+      EXPECT_NO_THROW(check_stands(s, 9.81)) << span << " m, " << bays << " bays";
+    }
+  }
+}
+
 Structure make_wall() {
   Member wall = make_block("brick_masonry", {0, 0, 1.5}, {4, 0.3, 3});
   wall.cut.counts[0] = 4, wall.cut.counts[2] = 3;

@@ -36,6 +36,14 @@ Axes split_order(const Member& member, bool pocket) {
   return {{order[0], order[1], order[2]}};
 }
 
+// By the shallow side first: what a wall shaves off the edge of a floor leaves the floor in one.
+Axes shallow_order(const Aabb& from, const Aabb& taken) {
+  int order[3] = {0, 1, 2};
+  const auto depth = [&](int axis) { return std::min(from.max[axis], taken.max[axis]) - std::max(from.min[axis], taken.min[axis]); };
+  std::sort(order, order + 3, [&](int a, int b) { return depth(a) != depth(b) ? depth(a) < depth(b) : a < b; });
+  return {{order[0], order[1], order[2]}};
+}
+
 struct Placed {
   Aabb box;
   double above = 0;  // as of its part
@@ -45,23 +53,24 @@ struct Placed {
 std::vector<Aabb> subtract_all(const BuildingPart& part, const std::vector<Placed>& placed,
                                const std::vector<Aabb>& walls) {
   std::vector<Aabb> left = {box_of(part.member)};
-  const auto take = [&](const Aabb& box, bool pocket) {
-    const Axes axes = split_order(part.member, pocket);
+  const auto take = [&](const Aabb& box, const auto& order_of) {
     std::vector<Aabb> next;
     for (const Aabb& from : left) {
-      for (const Aabb& rest : subtract(from, box, axes.order)) next.push_back(rest);
+      for (const Aabb& rest : subtract(from, box, order_of(from).order)) next.push_back(rest);
     }
     left = next;
   };
-  for (const Aabb& hole : part.holes) take(hole, false);
+  const auto split = [&](bool pocket) { return [&part, pocket](const Aabb&) { return split_order(part.member, pocket); }; };
+  for (const Aabb& hole : part.holes) take(hole, split(false));
   const bool laid = part.member.joint == MemberJoint::laid;
   for (const Placed& other : placed) {
     Aabb box = other.box;
     if (!laid) box.max.z += other.above;
-    take(box, other.above > 0);
+    take(box, split(other.above > 0));
   }
   for (const Aabb& wall : laid ? walls : std::vector<Aabb>{}) {
-    take({wall.min - Vec3{kLaidApart, kLaidApart, 0}, wall.max + Vec3{kLaidApart, kLaidApart, 0}}, false);
+    const Aabb apart{wall.min - Vec3{kLaidApart, kLaidApart, 0}, wall.max + Vec3{kLaidApart, kLaidApart, 0}};
+    take(apart, [&](const Aabb& from) { return shallow_order(from, apart); });
   }
   return left;
 }

@@ -192,7 +192,7 @@ void save(const ResolvedMission& mission, const PileState& state, std::uint64_t 
   folder.note_pile(work);
 }
 
-// Strews fines over the pile, with what a person sees of it. A million takes most of a minute, so a signal ends it.
+// Strews fines over the pile, with what a person sees of it. A million takes a minute or more, so a signal ends it.
 void strew(const ResolvedMission& mission, RunContext& context, PileState& pile, const std::string& folder) {
   const int amount = mission.scenario.fines.amount;
   if (amount == 0) return;

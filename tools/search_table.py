@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Plays the baselines of `rubble bench search` at each difficulty, and perhaps an agent, and writes their rows into the
-table of a document, between its marks. Rows of what was not played stay.
+table of a document, between its marks. Rows of what was not played stay. `--baselines ""` plays the agent alone.
 
 usage: tools/search_table.py [--seeds 1..30] [--baselines oracle,frontier] [--agent COMMAND --name NAME]
        [--out out/search] [--reuse] docs/explanation/search.md
@@ -47,9 +47,9 @@ def rank(key):
 
 
 def some_of(known):
-    """The reader of an option that takes names after commas."""
+    """The reader of an option that takes names after commas, or none."""
     def read(text):
-        names = tuple(text.split(","))
+        names = tuple(text.split(",")) if text else ()
         for name in names:
             if name not in known:
                 raise argparse.ArgumentTypeError(f"expected some of {','.join(known)}, got '{name}'")

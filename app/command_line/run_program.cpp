@@ -2,9 +2,6 @@
 
 #include <fcntl.h>
 #include <unistd.h>
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
 
 #include <cerrno>
 #include <csignal>
@@ -15,6 +12,7 @@
 #include <system_error>
 
 #include "app/command_line/command.h"
+#include "app/support/freed_memory.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
 
@@ -35,15 +33,6 @@ ExitCode check_standard_output(ExitCode code) {
   const std::string reason = errno ? ": " + std::generic_category().message(errno) : "";
   print_err("\nrubble: cannot write to standard output%s\n", reason.c_str());
   return code == ExitCode::done ? ExitCode::failure : code;
-}
-
-// Images of several megabytes come and go with each frame. Memory that goes back to the system in between costs a page fault for
-// each of its pages the next time: a sixth of the time of recording.
-void keep_freed_memory() {
-#if defined(__GLIBC__)
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the largest that it takes
-  mallopt(M_TRIM_THRESHOLD, 128 << 20);
-#endif
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
 #include "app/mission/finished_run.h"
+#include "app/support/freed_memory.h"
 #include "app/support/print.h"
 #include "app/support/progress.h"
 #include "app/support/stop.h"
@@ -77,6 +78,7 @@ VoidSpace make_space(const FolderRequest& request, const VoidRequest& voids, con
   options.threads = request.options.threads;
   options.margin = kShownAround;
   Solids solids = place_solids_of(request, options.scenery);
+  return_freed_memory();  // of the assets
   return calc_void_space(std::move(solids), options, progress);
 }
 
@@ -89,7 +91,10 @@ VoidMap make_map(const FolderRequest& request, const VoidRequest& voids, Progres
     };
   };
   VoidSpace space = make_space(request, voids, report("clearance", 0, 0.6));
-  return find_voids(std::move(space), voids.space.radii, report("voids", 0.6, 0.4));
+  return_freed_memory();  // of the solids
+  VoidMap map = find_voids(std::move(space), voids.space.radii, report("voids", 0.6, 0.4));
+  return_freed_memory();
+  return map;
 }
 
 // Through the deepest place of the largest void, both ways.

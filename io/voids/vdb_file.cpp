@@ -156,6 +156,9 @@ WritablePtr make_solid_grid(const VoidSpace& space) {
 class Ranks {
  public:
   Ranks(const RobotVoids& robot, std::size_t cells) {
+    std::size_t count = 0;
+    for (const Void& v : robot.voids) count += v.cells.runs().size();
+    runs_.reserve(count), begin_.reserve(cells / kBlock + 1);
     for (std::size_t v = 0; v < robot.voids.size(); ++v)
       for (const CellRun& run : robot.voids[v].cells.runs()) runs_.push_back({run, int(v + 1)});
     std::sort(runs_.begin(), runs_.end(), [](const Run& a, const Run& b) { return a.cells.first < b.cells.first; });

@@ -53,15 +53,19 @@ std::vector<std::uint32_t> put_in_order(std::vector<Vec3f>& positions) {
 }
 
 // Values are high inside, so OpenVDB's faces look inwards: they are turned round.
-void add_faces(const std::vector<openvdb::Vec4I>& quads, const std::vector<std::uint32_t>& place,
+void add_faces(const openvdb::tools::PolygonPoolList& pools, std::size_t pool_count, const std::vector<std::uint32_t>& place,
                TriangleMesh& mesh) {
-  mesh.triangles.reserve(2 * quads.size());
-  for (const openvdb::Vec4I& quad : quads) {
-    std::array<std::uint32_t, 4> q{place[quad[3]], place[quad[2]], place[quad[1]], place[quad[0]]};
-    std::rotate(q.begin(), std::min_element(q.begin(), q.end()), q.end());
-    mesh.triangles.push_back({q[0], q[1], q[2]});
-    mesh.triangles.push_back({q[0], q[2], q[3]});
-  }
+  std::size_t quads = 0;
+  for (std::size_t pool = 0; pool < pool_count; ++pool) quads += pools[pool].numQuads();
+  mesh.triangles.reserve(2 * quads);
+  for (std::size_t pool = 0; pool < pool_count; ++pool)
+    for (std::size_t i = 0; i < pools[pool].numQuads(); ++i) {
+      const openvdb::Vec4I& quad = pools[pool].quad(i);
+      std::array<std::uint32_t, 4> q{place[quad[3]], place[quad[2]], place[quad[1]], place[quad[0]]};
+      std::rotate(q.begin(), std::min_element(q.begin(), q.end()), q.end());
+      mesh.triangles.push_back({q[0], q[1], q[2]});
+      mesh.triangles.push_back({q[0], q[2], q[3]});
+    }
   std::sort(mesh.triangles.begin(), mesh.triangles.end());
 }
 
@@ -72,20 +76,20 @@ constexpr const char* kBegin = "ply\nformat binary_little_endian 1.0\ncomment pi
 TriangleMesh make_void_surface(const VoidSpace& space, const Void& v) {
   static std::once_flag once;
   std::call_once(once, [] { openvdb::initialize(); });
-  std::vector<openvdb::Vec3s> points;
-  std::vector<openvdb::Vec4I> quads;
   openvdb::FloatGrid::Ptr grid = make_grid(space.grid, v);
   openvdb::tools::prune(grid->tree());  // what is deep inside takes no memory
-  openvdb::tools::volumeToMesh(*grid, points, quads, 0.5);
-  grid.reset();
+  openvdb::tools::VolumeToMesh mesher(0.5);
+  mesher(*grid);
+  grid.reset();  // as the points below: those of a large void fill the memory
   TriangleMesh mesh;
-  mesh.positions.reserve(points.size());
-  for (const openvdb::Vec3s& p : points) {
+  mesh.positions.reserve(mesher.pointListSize());
+  for (std::size_t i = 0; i < mesher.pointListSize(); ++i) {
+    const openvdb::Vec3s& p = mesher.pointList()[i];
     mesh.positions.push_back(
         Vec3f(space.grid.corner + Vec3{p.x() + 0.5, p.y() + 0.5, p.z() + 0.5} * space.grid.voxel));
   }
-  points = {};  // those of a large void fill the memory
-  add_faces(quads, put_in_order(mesh.positions), mesh);
+  mesher.pointList().reset();
+  add_faces(mesher.polygonPoolList(), mesher.polygonPoolListSize(), put_in_order(mesh.positions), mesh);
   return mesh;
 }
 

@@ -50,13 +50,13 @@ class ClearanceSurvey {
   // Of all cells. The nearest surface cells are found in the memory of the clearance, which replaces them by layers.
   void measure_all() {
     void* const nearest = space_.clearance.of_all().data();
-    find_nearest(all_, nearest);
+    find_surface_in(all_);
+    find_nearest_seeds(all_.grid(), surface_.cells, pool_, nearest);
     measure(all_, all_, nearest);
   }
 
   // Of some cells alone, tile by tile of the plan. Their distance is small, and so is what a tile needs around it.
   void measure_tiles(const std::function<void(double)>& report) {
-    std::vector<std::uint32_t> nearest;
     for (int y = 0; y <= all_.last[1]; y += kEdge) {
       for (int x = 0; x <= all_.last[0]; x += kEdge) {
         CellBox tile{{x, y, 0}, all_.last};
@@ -64,11 +64,14 @@ class ClearanceSurvey {
         int around = std::clamp(int(kRoomInEdge * space_.rolling_radius / space_.grid.voxel) + 3, 16, 64);
         CellBox box = widen(tile, around);
         for (;; around *= 2, box = widen(tile, around)) {
-          nearest.resize(box.grid().count());
-          find_nearest(box, nearest.data());
-          if (is_enough(tile, box, nearest, around)) break;
+          find_surface_in(box);
+          // Of each cell of the box the number of the nearest surface cell in it. Room for it is taken last.
+          std::vector<std::uint32_t> nearest(box.grid().count());
+          find_nearest_seeds(box.grid(), surface_.cells, pool_, nearest.data());
+          if (!is_enough(tile, box, nearest, around)) continue;
+          measure(tile, box, nearest.data());
+          break;
         }
-        measure(tile, box, nearest.data());
       }
       report(double(y) / space_.grid.size[1]);
     }
@@ -83,10 +86,9 @@ class ClearanceSurvey {
     return box;
   }
 
-  // nearest: of each cell of the box the number of the nearest surface cell in it.
-  void find_nearest(const CellBox& box, void* nearest) {
+  void find_surface_in(const CellBox& box) {
+    surface_ = {};
     surface_ = find_surface(space_.grid, box, solids_, pool_);
-    find_nearest_seeds(box.grid(), surface_.cells, pool_, nearest);
   }
 
   // Whether no cell beyond the box can be the nearest to a cell of the tile or to one beside that.

@@ -197,21 +197,33 @@ void add_solid(const TriangleMesh& mesh, const Pose& world_from_body, double sca
   result.pieces.push_back(piece);
 }
 
-}  // namespace
-
-Solids place_solids(const PileState& pile, const std::vector<const TriangleMesh*>& meshes) {
-  Solids result;
-  result.pile_state = pile.state_hash();
+// visit(mesh, world_from_body, scale, type): of each piece that is there, then of each heap of fines.
+template <typename Visit>
+void for_each_solid(const PileState& pile, const std::vector<const TriangleMesh*>& meshes, const Visit& visit) {
   for (const PieceState& state : pile.pieces) {
     if (state.status == PieceStatus::lost) continue;
     const std::size_t type = std::size_t(state.type);
     if (state.type < 0 || type >= meshes.size() || meshes[type] == nullptr) {
       throw std::invalid_argument("place_solids: a piece without a mesh");
     }
-    add_solid(*meshes[type], state.world_from_body, state.scale, state.type, result);
+    visit(*meshes[type], state.world_from_body, state.scale, state.type);
   }
-  for (const FineHeap& heap : pile.fines.heaps())
-    add_solid(heap.mesh, world_from_host(pile, heap.host), 1, kFineType, result);
+  for (const FineHeap& heap : pile.fines.heaps()) visit(heap.mesh, world_from_host(pile, heap.host), 1.0, kFineType);
+}
+
+}  // namespace
+
+Solids place_solids(const PileState& pile, const std::vector<const TriangleMesh*>& meshes) {
+  Solids result;
+  result.pile_state = pile.state_hash();
+  std::size_t corners = 0, triangles = 0;
+  for_each_solid(pile, meshes, [&](const TriangleMesh& mesh, const Pose&, double, int) {
+    corners += mesh.positions.size(), triangles += mesh.triangles.size();
+  });
+  result.corners.reserve(corners), result.triangles.reserve(triangles);
+  for_each_solid(pile, meshes, [&](const TriangleMesh& mesh, const Pose& world_from_body, double scale, int type) {
+    add_solid(mesh, world_from_body, scale, type, result);
+  });
   return result;
 }
 
@@ -229,7 +241,7 @@ void fill_solids(const VoxelGrid& grid, const Solids& solids, ThreadPool& pool, 
 }
 
 VoxelSurface find_surface(const VoxelGrid& grid, const CellBox& box, const Solids& solids, ThreadPool& pool) {
-  const std::vector<NearTriangle> near = find_near(grid, box, solids);
+  std::vector<NearTriangle> near = find_near(grid, box, solids);
   const int slabs = (box.last[2] - box.first[2]) / kSlab + 1;
   std::vector<VoxelSurface> parts{std::size_t(slabs)};
   pool.run(slabs, 1, [&](int begin, int end) {
@@ -241,6 +253,7 @@ VoxelSurface find_surface(const VoxelGrid& grid, const CellBox& box, const Solid
       slab.append_to(parts[std::size_t(i)]);
     }
   });
+  std::vector<NearTriangle>().swap(near);
   VoxelSurface result;
   std::size_t count = 0;
   for (const VoxelSurface& part : parts) count += part.cells.size();

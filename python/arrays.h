@@ -36,10 +36,17 @@ class DoubleArray {
   DoubleArray() = default;
   // Throws nb::python_error where numpy finds no numbers.
   explicit DoubleArray(nb::handle given) {
+    const nb::module_ numpy = nb::module_::import_("numpy");
+    const nb::object masks = numpy.attr("ma");
+    if (nb::isinstance(given, masks.attr("MaskedArray")) && nb::cast<bool>(masks.attr("is_masked")(given)))
+      lost_ = "values that are masked";
     if (nb::try_cast(given, values_, false)) return;
-    const nb::object made = nb::module_::import_("numpy").attr("require")(given, "float64", "CA");
-    values_ = nb::cast<Values>(made, false);
+    nb::object numbers = nb::borrow(given);
+    if (nb::cast<bool>(numpy.attr("iscomplexobj")(given))) lost_ = "complex ones", numbers = numpy.attr("real")(given);
+    values_ = nb::cast<Values>(numpy.attr("require")(numbers, "float64", "CA"), false);
   }
+  // What would be lost of what is given, as the mask of an array; "": nothing.
+  const char* lost() const { return lost_; }
   Size ndim() const { return Size(values_.ndim()); }
   Size shape(Size axis) const { return Size(values_.shape(std::size_t(axis))); }
   Size size() const { return Size(values_.size()); }
@@ -48,10 +55,12 @@ class DoubleArray {
  private:
   using Values = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
   Values values_;
+  const char* lost_ = "";
 };
 
-// Throws InputError, keyed by the argument's name, for another shape and for what is not finite.
+// Throws InputError, keyed by the argument's name, for what is no array of finite numbers.
 inline void expect_finite(const DoubleArray& values, const char* name) {
+  if (*values.lost()) throw InputError({"", 0, name, "not all are numbers", "real numbers without a mask", values.lost(), ""});
   for (Size i = 0; i < values.size(); ++i)
     if (!std::isfinite(values.data()[i]))
       throw InputError({"", 0, name, "not a finite number", "finite numbers",

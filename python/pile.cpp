@@ -128,7 +128,7 @@ nb::dict cast_rays(Pile& pile, const DoubleArray& origins, const DoubleArray& di
   const std::vector<Vec3> from = to_points(origins, "origins"), along = to_points(directions, "directions");
   expect_positive(max_distance, "max_distance");
   if (from.size() != along.size() && from.size() != 1)
-    throw InputError({"", 0, "origins", "not as many as directions", std::to_string(along.size()) + " or 1",
+    throw InputError({"", 0, "origins", "not as many as directions", std::to_string(along.size()) + (along.size() == 1 ? "" : ", or 1 for all"),
                       std::to_string(from.size()), ""});
   for (const Vec3& d : along)
     if (!(norm(d) > 0 && std::isfinite(norm(d))))
@@ -246,9 +246,12 @@ void add_pile(nb::module_& module) {
       .def_prop_ro("seed", [](const Pile& p) { return p.settled->mission.scenario.seed; })
       .def("__len__", [](const Pile& p) { return p.settled->state.pieces.size(); })
       .def("cast_rays", &cast_rays, nb::arg("origins"), nb::arg("directions"), nb::arg("max_distance") = 100.0,
-           "What rays meet: dict of distance (inf: nothing), normal, piece (-1: ground, -2: nothing).")
+           "What rays from origins along directions, (n, 3) each or one origin for all, meet up to max_distance (unit: m): dict of\n"
+           "distance (inf: nothing; unit: m), normal (0: nothing) and piece (an index of poses; -1: ground, -2: nothing). Beyond 600 km\n"
+           "from the pile pieces are missed.")
       .def("clearance", &clearance, nb::arg("points"), nb::arg("max_distance") = 10.0,
-           "How far each point is from everything solid; 0 inside a piece and below the ground.")
+           "How far each of n points (n, 3) is from everything solid, at most max_distance; 0 inside a piece and below the ground.\n"
+           "Unit: m.")
       .def("voids", &voids, nb::arg("radius"), nb::arg("voxel") = 0.05,
            "The voids that a ball of that radius has room in, the largest first.")
       .def("mesh", &mesh_of, "(vertices (n, 3) float32, triangles (m, 3) int32) of all pieces.")

@@ -1,4 +1,4 @@
-// Notices a camera that flies through solid matter: it sees the inside of a wall, or through it.
+// Notices a camera that flies through solid matter, or below the ground: it sees the inside of a wall, or through it.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,9 @@
 
 namespace rubble {
 
-// A sentence that names the first frame whose camera is inside a piece, that piece and how many frames
+// A sentence that names the first frame whose camera is inside a piece, that piece, or below the ground, and how many frames
 // there are; nothing: none is. By the winding number of the piece's mesh about the camera, which is 1
-// inside of a closed mesh and 0 outside (Jacobson, Kavan and Sorkine-Hornung 2013).
+// inside of a closed mesh and 0 outside (Jacobson, Kavan and Sorkine-Hornung 2013). Fines and surroundings are not looked at.
 std::optional<std::string> find_camera_inside(const AssetLibrary& assets, const PileState& pile,
                                               const std::vector<Vec3>& positions);
 

@@ -124,12 +124,30 @@ std::string RobotRun::name_of(int piece) const {
   return pile_.types[std::size_t(pile_.pieces[std::size_t(piece)].type)] + " (piece " + std::to_string(piece) + ")";
 }
 
+// Of a robot that has left the world with its first step.
+Diagnostic RobotRun::describe_lost(std::size_t robot) const {
+  const Vec3& at = robots_[robot].base.translation;
+  const bool deep = robots_[robot].start.z < options_.lost_below;
+  Diagnostic d;
+  d.key = "robots[" + std::to_string(robot + 1) + "].position";
+  d.message = deep ? "the robot stands below settle.lost_below, outside of the world"
+                   : "the robot stands farther from the Z axis than settle.lost_beyond, outside of the world";
+  d.expected = deep ? text_of("a place above %g m", options_.lost_below, 0, 0) : text_of("a place within %g m", options_.lost_beyond, 0, 0);
+  d.found = text_of("{%g, %g, %g}", at.x, at.y, at.z);
+  d.hint = deep ? "the ground is at z = 0 where there is no terrain" : "or a larger settle.lost_beyond";
+  return d;
+}
+
 // After the first step: its contacts were found where everything stood before it.
 void RobotRun::check_room() const {
   std::vector<Diagnostic> mistakes;
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     const int first = world_.robots().first_piece(int(i));
     const RobotModel& model = world_.robots().model(int(i));
+    if (world_.robots().state(int(i)).lost) {
+      mistakes.push_back(describe_lost(i));
+      continue;
+    }
     RobotContact worst;
     std::vector<RobotContact> contacts = world_.robots().contacts(int(i));
     if (model.tube) {

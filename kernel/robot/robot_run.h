@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/base/error.h"
 #include "kernel/model/pile.h"
 #include "kernel/model/pile_state.h"
 #include "kernel/model/robot.h"
@@ -99,6 +100,7 @@ class RobotRun {
     std::vector<double> work;  // by joint, at the last step
   };
   void control();
+  Diagnostic describe_lost(std::size_t robot) const;
   void check_room() const;
   std::string name_of(int piece) const;
   std::vector<RobotContact> find_base_contacts(int robot) const;

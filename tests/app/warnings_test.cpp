@@ -71,6 +71,24 @@ TEST_F(Warnings, NameAnAngleThatLooksLikeRadians) {
   EXPECT_IN("m.lua:2: camera.fov_deg: 1.57 degrees is very narrow (is it in radians?)", said);
 }
 
+TEST_F(Warnings, NameAFrameWhoseCameraIsBelowTheGround) {
+  // A slope of 45 degrees from x = -1, z = 0 to x = 1, z = 2 in the second row of cases.
+  const std::string slope = "terrain = { columns = 2, rows = 2, spacing = 2, heights = { 0, 2, 0, 2 } }";
+  const struct {
+    std::string terrain, z;
+    bool below;
+  } cases[] = {{"", "-0.1", true}, {"", "0.1", false}, {slope, "0.9", true}, {slope, "1.1", false}, {slope, "-0.1", true}};
+  for (const auto& c : cases) {
+    write_file(scratch_ / "m.lua",
+               "return rubble.mission { pile = { layers = 0, " + c.terrain + " }, camera = { width = 32, height = 24 }, trajectory = {\n"
+               "  rate_hz = 1, waypoints = { { t = 0, position = { 0, 0, 9 } }, { t = 1, position = { 0, 0, " + c.z + " } } } } }");
+    const Outcome run = run_rubble("run " + (scratch_ / "m.lua") + " --quiet --force --out " + (scratch_ / "a"));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const std::string said = "the camera is below the ground at frame 1";
+    EXPECT_EQ(run.err.find(said) != std::string::npos, c.below) << c.terrain << " " << c.z << "\n" << run.err;
+  }
+}
+
 TEST_F(Warnings, NameAPieceThatTheCameraIsInside) {
   std::string text = kTinyMission;
   text.replace(text.find("layers = 2"), 10,
@@ -80,7 +98,7 @@ TEST_F(Warnings, NameAPieceThatTheCameraIsInside) {
   const Outcome run = run_rubble("run " + (scratch_ / "m.lua") + " --quiet --out " + (scratch_ / "a"));
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_IN("the camera is inside piece 0 (", run.err);
-  EXPECT_IN("inside a piece at 3 of 3 frames", run.err);
+  EXPECT_IN("inside a piece or below the ground at 3 of 3 frames", run.err);
   EXPECT_IN("the camera is inside piece 0", read_file(scratch_ / "a/manifest.json"));
   write_file(scratch_ / "m.lua", kTinyMission);
   const Outcome outside =

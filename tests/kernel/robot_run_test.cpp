@@ -198,6 +198,26 @@ TEST(RobotRun, ARobotInsideAPieceIsNamed) {
   }
 }
 
+// It would be lost in the first step, before anything could touch it.
+TEST(RobotRun, ARobotOutsideOfTheWorldIsNamed) {
+  const RobotModel model = make_rover();
+  const struct {
+    Vec3 at;
+    std::string said;
+  } cases[] = {{{0, 0, -0.7}, "settle.lost_below"}, {{0, 0, -20}, "settle.lost_below"}, {{150, 0, 0}, "settle.lost_beyond"}};
+  for (const auto& c : cases) {
+    RobotRun run({}, settle_pile({}), run_options(1));
+    run.add(model, {{}, c.at}, [&](const RobotSense&) { return drive_sides(model, 0, 0); });
+    try {
+      run.run();
+      FAIL() << c.at.x << " " << c.at.z;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.diagnostics()[0].key, "robots[1].position");
+      EXPECT_NE(error.diagnostics()[0].message.find(c.said), std::string::npos) << error.what();
+    }
+  }
+}
+
 // A world with robots in mid-motion goes on from its snapshot with the same bits.
 TEST(RobotRun, ASnapshotGoesOnWithTheSameBits) {
   const RobotModel model = make_snake();

@@ -201,7 +201,7 @@ class Dataset:
 
     def is_inside(self, camera):
         """Whether the program has warned that this camera is inside a piece; it names cameras that have names."""
-        starts = ("the camera is inside", "camera `%s`: the camera is inside" % camera.name)
+        starts = tuple(who + "the camera is " + where for who in ("", "camera `%s`: " % camera.name) for where in ("inside", "below"))
         return any(warning.startswith(starts) for warning in self.manifest["warnings"])
 
     def flight_frames(self, camera):

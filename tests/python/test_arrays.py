@@ -63,6 +63,22 @@ class Arrays(unittest.TestCase):
             if not isinstance(value, list) or value:
                 self.check(value)
 
+    def test_that_would_lose_a_part_are_refused(self):
+        down = [[0, 0, -1], [0, 0, -1]]
+        points = np.array([[0, 0, 1.0], [0, 1, 1]])
+        plain = self.pile.clearance(points)
+        for same in (np.ma.masked_array(points), points.astype(">f8"), points.astype("f4"), np.asfortranarray(points), points.tolist()):
+            np.testing.assert_array_equal(self.pile.clearance(same), plain)
+        for wrong, word in ((np.ma.masked_array(points, mask=points > 0), "mask"), (points + 1j, "complex"), ((points + 1j).tolist(), "complex"),
+                            (points.astype("complex64"), "complex")):
+            for call in (lambda: self.pile.clearance(wrong), lambda: self.pile.cast_rays(wrong, down), lambda: rubble.rotate([0, 0, 0, 1, 0, 0, 0], wrong)):
+                with self.assertRaisesRegex(rubble.InputError, word):
+                    call()
+        with self.assertRaisesRegex(rubble.InputError, "expected 1, found 2"):
+            self.pile.cast_rays(points, [[0, 0, -1]])
+        with self.assertRaisesRegex(rubble.InputError, "expected 3, or 1 for all, found 2"):
+            self.pile.cast_rays(points, [[0, 0, -1]] * 3)
+
     def test_have_their_values(self):
         np.testing.assert_allclose(self.pile.poses, [[3.1, 0, 1.5, 1, 0, 0, 0], [0, 4, 0.5, 1, 0, 0, 0]], atol=1e-12)
         np.testing.assert_array_equal(rubble.pose([1, 2, 3]), [1, 2, 3, 1, 0, 0, 0])

@@ -160,7 +160,7 @@ void Baker::solve(const AlbedoAt& albedo, const std::function<void(double)>& pro
     fill_closed();
   }
   update_radiance();
-  sky_ = {};
+  std::vector<Vec3f>().swap(sky_);
 }
 
 void Baker::save(CacheWriter& to) const {
@@ -185,7 +185,7 @@ bool Baker::restore(CacheReader& from) {
       far_light_.size() != far || far_vectors_.size() != far ||
       first_cleared_.size() != (sheets_.any() ? first_hits_.size() : 0)) {
     for (Point& p : points_) p.open = 0;  // trace() adds to it
-    first_cleared_ = {}, far_light_ = far_vectors_ = {};
+    first_cleared_.clear(), far_light_.clear(), far_vectors_.clear();
     return false;
   }
   find_substitutes();
@@ -224,7 +224,7 @@ void Baker::light_at_once(std::vector<Piece>& work, LightTable& nodes) const {
   parallel_for(work.size(), options_.threads, [&](std::size_t k) {
     smooth(work[k]);
     store_nodes(work[k], nodes);
-    work[k].found = {};
+    std::vector<Found>().swap(work[k].found);
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <type_traits>
 
 #include "kernel/base/error.h"
 #include "render/gl/gl_traffic.h"
@@ -53,7 +54,8 @@ GlGeometry::GlGeometry(const Gl& of, const PreparedScene& scene, SceneTables mad
   if (need > std::size_t(most))
     throw RunError("the scene needs tables of " + std::to_string(need) + " entries; this graphics device holds " +
                    std::to_string(most) + "; draw it with the software device");
-  tables.vertices = {}, tables.triangles = {}, tables.paint = {}, tables.indices = {};
+  const auto free_list = [](auto& list) { std::decay_t<decltype(list)>().swap(list); };  // "= {}" would keep its memory
+  free_list(tables.vertices), free_list(tables.triangles), free_list(tables.paint), free_list(tables.indices);
 }
 
 void GlGeometry::place(const PreparedScene& scene) {

@@ -204,7 +204,7 @@ void ShadowRaster::draw(const ShadowViews::Rows& rows, ShadowPart part, int side
       }
     });
   }
-  if (part == ShadowPart::resting) jobs_ = {};  // it is drawn once, and is most of the scene
+  if (part == ShadowPart::resting) jobs_.clear();  // it is drawn once, and is most of the scene
 }
 
 }  // namespace rubble

@@ -17,7 +17,7 @@ class SoftwareScene : public DeviceScene {
         tables_(make_scene_tables(scene)),
         shapes_(scene.meshes.size()),
         raster_(scene, shapes_, tables_.names, pool_) {
-    tables_.indices = {};
+    decltype(tables_.indices)().swap(tables_.indices);  // frees it; "= {}" would keep its memory
     for (std::size_t i = 0; i < shapes_.size(); ++i) shapes_[i] = make_cluster_shapes(scene.meshes[i]);
     if (options.shades)
       shadows_ = std::make_unique<SoftwareShadowMap>(scene, lights, shapes_, options.shadow_side, pool_);

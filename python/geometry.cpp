@@ -24,6 +24,8 @@ Array<double> pose(const DoubleArray& position, const DoubleArray& rpy) {
 // Upright, its X axis towards the target.
 Array<double> look_at(const DoubleArray& position, const DoubleArray& target) {
   const Vec3 at = to_vector(position, "position"), d = to_vector(target, "target") - at;
+  if (!(norm(d) > 0))
+    throw InputError({"", 0, "target", "nothing to look at", "a point away from the position", "the position itself", ""});
   const double pitch = -portable::atan2(d.z, std::sqrt(d.x * d.x + d.y * d.y));
   return from_pose({portable::quat_from_rpy(0, pitch, portable::atan2(d.y, d.x)), at});
 }

@@ -16,7 +16,7 @@ def pose(position: ArrayLike, rpy: ArrayLike = (0.0, 0.0, 0.0)) -> NDArray[np.fl
 
 
 def look_at(position: ArrayLike, target: ArrayLike) -> NDArray[np.float64]:
-    """The upright pose at a position whose X axis points at the target."""
+    """The upright pose at a position (m) whose X axis points at the target (m), another point."""
     return _core._look_at(position, target)
 
 

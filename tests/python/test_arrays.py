@@ -74,6 +74,8 @@ class Arrays(unittest.TestCase):
             for call in (lambda: self.pile.clearance(wrong), lambda: self.pile.cast_rays(wrong, down), lambda: rubble.rotate([0, 0, 0, 1, 0, 0, 0], wrong)):
                 with self.assertRaisesRegex(rubble.InputError, word):
                     call()
+        with self.assertRaisesRegex(rubble.InputError, "target: nothing to look at"):
+            rubble.look_at([1, 2, 3], [1, 2, 3])
         with self.assertRaisesRegex(rubble.InputError, "expected 1, found 2"):
             self.pile.cast_rays(points, [[0, 0, -1]])
         with self.assertRaisesRegex(rubble.InputError, "expected 3, or 1 for all, found 2"):

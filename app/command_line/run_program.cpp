@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <system_error>
@@ -49,6 +50,8 @@ int run_program(int argc, char** argv) {
   } catch (const Stopped& stopped) {
     print_err("\n%s\n", stopped.what());
     return int(ExitCode::stopped);
+  } catch (const std::filesystem::filesystem_error& error) {
+    print_err("\nrubble: %s: %s\n", error.path1().c_str(), error.code().message().c_str());
   } catch (const std::bad_alloc&) {
     print_err("\nrubble: out of memory\n");
   } catch (const std::exception& error) {

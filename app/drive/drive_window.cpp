@@ -18,7 +18,7 @@ std::string variable(const char* name) {
   std::string drivers;
   for (int i = 0; i < sdl().GetNumVideoDrivers(); ++i)
     drivers += (i ? ", " : "") + std::string(sdl().GetVideoDriver(i));
-  throw RunError("drive needs a window, and " + what + ": " + why +
+  throw RunError("a window is needed, and " + what + ": " + why +
                  "\n  SDL can use: " + drivers + "\n  " + variable("DISPLAY") + ", " +
                  variable("WAYLAND_DISPLAY") + ", " + variable("SDL_VIDEODRIVER") +
                  "\n  start it on a desktop, over `ssh -X`, or under `xvfb-run -a`; "

@@ -33,7 +33,7 @@ FlightPlan resolve(const ResolvedMission& mission, PileSurvey& survey, RunFolder
   return plan;
 }
 
-void warn_of_cameras_inside(const ResolvedMission& mission, const RigFlight& flight, const PileState& pile,
+void warn_of_sensors_inside(const ResolvedMission& mission, const RigFlight& flight, const PileState& pile,
                             RunContext& context) {
   const std::vector<MountedCamera>& cameras = mission.scenario.cameras;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -43,6 +43,14 @@ void warn_of_cameras_inside(const ResolvedMission& mission, const RigFlight& fli
     if (!warning) continue;
     const std::string who = !cameras[i].named ? "" : "camera `" + cameras[i].name + "`: ";
     context.warnings.push_back(who + *warning);
+  }
+  for (const SensorItem& sensor : mission.scenario.sensors) {
+    if (!sensor.figures->casts_rays() || sensor.ride.on() || flight.cameras.empty()) continue;
+    std::vector<Vec3> positions;
+    for (const std::int64_t stamp : flight.cameras.front().stamps_ns)
+      positions.push_back(flight.path->at(double(stamp - flight.start_ns) * 1e-9) * sensor.position);
+    if (const auto warning = find_camera_inside(mission.assets, pile, positions, sensor.key()))
+      context.warnings.push_back(*warning);
   }
 }
 
@@ -76,7 +84,7 @@ std::vector<Leg> plan_flight(const ResolvedMission& mission, const SettledPile& 
       mission, [&] { return plan_legs(mission.scenario, plan, pile.track, robots.readings); });
   if (mission.scenario.record_settling.on && legs.size() == 1)
     context.warnings.push_back("record_settling: the pile rests from the start: there is no settling to record");
-  warn_of_cameras_inside(mission, legs.back().flight, pile.state, context);
+  warn_of_sensors_inside(mission, legs.back().flight, pile.state, context);
   return legs;
 }
 

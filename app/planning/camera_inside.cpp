@@ -89,7 +89,7 @@ class SolidParts {
 }  // namespace
 
 std::optional<std::string> find_camera_inside(const AssetLibrary& assets, const PileState& pile,
-                                              const std::vector<Vec3>& positions) {
+                                              const std::vector<Vec3>& positions, const std::string& who) {
   const SolidParts solid(assets, pile);
   std::size_t frames = 0, first = 0;
   std::string where;
@@ -102,7 +102,7 @@ std::optional<std::string> find_camera_inside(const AssetLibrary& assets, const 
   const Vec3& at = positions[first];
   char place[96];
   std::snprintf(place, sizeof place, "{%.2f, %.2f, %.2f}", at.x, at.y, at.z);
-  return "the camera is " + where + " at frame " + std::to_string(first) + ", " + place +
+  return who + " is " + where + " at frame " + std::to_string(first) + ", " + place +
          ", and inside a piece or below the ground at " + std::to_string(frames) + " of " + std::to_string(positions.size()) +
          " frames: move its path, or fly with trajectory.plan = \"avoid\"";
 }

@@ -89,6 +89,17 @@ TEST_F(Warnings, NameAFrameWhoseCameraIsBelowTheGround) {
   }
 }
 
+TEST_F(Warnings, NameASensorThatIsBelowTheGround) {
+  write_file(scratch_ / "m.lua",
+             "return rubble.mission { pile = { layers = 0 }, camera = { width = 32, height = 24 },\n"
+             "  lidars = { low = { position = { 0, 0, -3 } }, high = { position = { 0, 0, 0.1 } } },\n"
+             "  trajectory = { rate_hz = 1, waypoints = { { t = 0, position = { 0, 0, 5 } }, { t = 1, position = { 0, 0, 1 } } } } }");
+  const Outcome run = run_rubble("run " + (scratch_ / "m.lua") + " --quiet --out " + (scratch_ / "a"));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_IN("lidars.low is below the ground at frame 1, {0.00, 0.00, -2.00}", run.err);
+  EXPECT_EQ(run.err.find("lidars.high"), std::string::npos) << run.err;
+}
+
 TEST_F(Warnings, NameAPieceThatTheCameraIsInside) {
   std::string text = kTinyMission;
   text.replace(text.find("layers = 2"), 10,

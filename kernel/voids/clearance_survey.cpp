@@ -11,7 +11,7 @@
 namespace rubble {
 namespace {
 
-constexpr int kEdge = 192;  // of a tile; unit: cells
+constexpr int kEdge = 176;  // of a tile; unit: cells
 // In the edge between two walls, a ball of radius 1 leaves room for one of 0.29.
 constexpr double kRoomInEdge = 0.3;
 

@@ -186,9 +186,11 @@ class Robots(unittest.TestCase):
             robot.step()
         self.assertEqual(raised.exception.key, "pose")
 
-    def test_a_robot_outside_the_world_is_lost(self):
-        for place in ([-2, 0, -1], [500, 0, 0.1]):
-            self.assertTrue(rubble.RobotWorld(self.pile, "crawler", rubble.pose(place)).step()["lost"])
+    def test_a_robot_outside_the_world_is_refused(self):
+        for place, key in (([-2, 0, -1], "lost_below"), ([500, 0, 0.1], "lost_beyond")):
+            with self.assertRaisesRegex(rubble.InputError, key) as raised:
+                rubble.RobotWorld(self.pile, "crawler", rubble.pose(place)).step()
+            self.assertEqual(raised.exception.key, "pose")
 
 
 RUIN = """return rubble.mission { seed = 4,

@@ -37,6 +37,7 @@ double calc_winding_number(const TriangleMesh& mesh, const Vec3& point) {
 
 namespace {
 
+// All that a camera may not be inside of: the pieces, the ground and the terrain.
 class SolidParts {
  public:
   SolidParts(const AssetLibrary& assets, const PileState& pile) : pile_(pile), meshes_(assets.finest_meshes()) {

@@ -52,6 +52,20 @@ TEST(Check, NamesFileAndLineOfLuaErrors) {
   EXPECT_NE(runtime.err.find("m.lua:2:"), std::string::npos) << runtime.err;
 }
 
+// The message names the path and the reason, without the words of std::filesystem.
+TEST(Files, ThatCannotBeReachedAreNamedWithTheReason) {
+  const ScratchFolder scratch;
+  std::filesystem::create_symlink("loop", scratch / "loop");
+  const std::string path = scratch / "loop";
+  for (const std::string& command : {"report " + path, "eval sfm " + path + " " + path}) {
+    const Outcome run = run_rubble(command);
+    EXPECT_NE(run.exit_code, 0) << command;
+    EXPECT_NE(run.err.find("Too many levels of symbolic links"), std::string::npos) << command << "\n" << run.err;
+    EXPECT_NE(run.err.find(path), std::string::npos) << command << "\n" << run.err;
+    EXPECT_EQ(run.err.find("filesystem error"), std::string::npos) << command << "\n" << run.err;
+  }
+}
+
 // The first thing a newcomer copies.
 TEST(Check, AcceptsTheMissionOfTheReadme) {
   const std::string readme = read_file(RUBBLE_SOURCE_DIR "/README.md");

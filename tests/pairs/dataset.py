@@ -200,7 +200,7 @@ class Dataset:
         return bool(self.scenario["robots"]) or self.scenario["surroundings"]["type"] != "none"
 
     def is_inside(self, camera):
-        """Whether the program has warned that this camera is inside a piece; it names cameras that have names."""
+        """Whether the program has warned that this camera is inside a piece or below the ground; it names cameras that have names."""
         starts = tuple(who + "the camera is " + where for who in ("", "camera `%s`: " % camera.name) for where in ("inside", "below"))
         return any(warning.startswith(starts) for warning in self.manifest["warnings"])
 

@@ -17,6 +17,7 @@
 #include "io/image/isolated_picture.h"
 #include "kernel/base/error.h"
 #include "kernel/base/read_file.h"
+#include "kernel/base/system/isolated_worker.h"
 
 namespace rubble {
 namespace {
@@ -43,6 +44,7 @@ class StringStream : public Imf::OStream {
 
 std::string encode_exr(int width, int height, const std::vector<std::string>& channels,
                        const std::vector<float>& values) {
+  const ForkHold hold;  // OpenEXR has locks
   Imf::Header header(width, height);
   header.compression() = Imf::ZIP_COMPRESSION;
   Imf::FrameBuffer pixels;

@@ -16,6 +16,7 @@
 #include "io/mrpt/reading_observations.h"
 #include "io/recording/frame_order.h"
 #include "kernel/base/error.h"
+#include "kernel/base/system/isolated_worker.h"
 
 namespace rubble {
 namespace {
@@ -94,6 +95,7 @@ class RawlogRecorder : public Recorder {
   // MRPT's errors as ours.
   template <typename Work>
   void guard(const Work& work) {
+    const ForkHold hold;  // children read rawlogs by MRPT, too
     try {
       work();
     } catch (const RunError&) {

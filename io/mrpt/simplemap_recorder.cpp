@@ -15,6 +15,7 @@
 #include "io/recording/frame_order.h"
 #include "kernel/base/error.h"
 #include "kernel/base/portable_math.h"
+#include "kernel/base/system/isolated_worker.h"
 
 namespace rubble {
 namespace {
@@ -26,6 +27,7 @@ struct EmptyMap {
 };
 
 std::string bytes_of(const mrpt::maps::CSimpleMap& map) {
+  const ForkHold hold;  // children read by MRPT, too
   MemoryStream stream;
   auto archive = mrpt::serialization::archiveFrom(static_cast<mrpt::io::CStream&>(stream));
   archive << map;

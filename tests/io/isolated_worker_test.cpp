@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "io/base/atomic_file.h"
+#include "io/image/exr_file.h"
 #include "kernel/base/error.h"
 #include "tests/io/support.h"
 
@@ -162,6 +164,23 @@ TEST(IsolatedWorker, ThreadsMayDoItAtOnce) {
   for (std::thread& thread : threads) thread.join();
   for (std::size_t i = 0; i < results.size(); ++i)
     EXPECT_EQ(results[i], std::string(100000, char('a' + i)));
+}
+
+// A lock of OpenEXR that another thread holds at the fork would stay locked in the child for ever.
+TEST(IsolatedWorker, ReadsWhileOtherThreadsWrite) {
+  const ScratchFolder scratch;
+  const std::vector<float> values(8 * 8, 1.5f);
+  const std::string path = scratch / "a.exr";
+  write_text_file(path, encode_exr(8, 8, {"Y"}, values));
+  std::atomic<bool> done{false};
+  std::vector<std::thread> writers;
+  for (int i = 0; i < 4; ++i)
+    writers.emplace_back([&] {
+      while (!done) encode_exr(8, 8, {"Y"}, values);
+    });
+  for (int i = 0; i < 300; ++i) EXPECT_EQ(read_exr(path, {"Y"}).values.front(), 1.5) << i;
+  done = true;
+  for (std::thread& writer : writers) writer.join();
 }
 
 }  // namespace isolated_worker_test

@@ -12,10 +12,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <condition_variable>
 #include <csignal>
 #include <cstring>
 #include <fstream>
 #include <new>
+#include <mutex>
 #include <optional>
 #include <system_error>
 
@@ -49,6 +51,28 @@ constexpr bool kFuzzing = true;
 #else
 constexpr bool kFuzzing = false;
 #endif
+
+// Holds that come while a thread waits to fork wait for it.
+struct ForkGate {
+  std::mutex mutex;
+  std::condition_variable changed;
+  int holds = 0, forks = 0;
+};
+ForkGate& fork_gate() {
+  static ForkGate gate;
+  return gate;
+}
+
+pid_t fork_without_holds() {
+  ForkGate& gate = fork_gate();
+  std::unique_lock<std::mutex> lock(gate.mutex);
+  ++gate.forks;
+  gate.changed.wait(lock, [&] { return gate.holds == 0; });
+  const pid_t child = fork();
+  --gate.forks;
+  if (child != 0) gate.changed.notify_all();  // nobody waits in the child
+  return child;
+}
 
 enum class Answer : char { result = 'R', refused = 'D', no_memory = 'M', failed = 'E' };
 
@@ -246,6 +270,19 @@ std::string death_words(int status, const ImportLimits& limits) {
 
 }  // namespace
 
+ForkHold::ForkHold() {
+  ForkGate& gate = fork_gate();
+  std::unique_lock<std::mutex> lock(gate.mutex);
+  gate.changed.wait(lock, [&] { return gate.forks == 0; });
+  ++gate.holds;
+}
+
+ForkHold::~ForkHold() {
+  ForkGate& gate = fork_gate();
+  const std::lock_guard<std::mutex> lock(gate.mutex);
+  if (--gate.holds == 0) gate.changed.notify_all();
+}
+
 IsolatedWorker::IsolatedWorker(std::string what, Handler handler, const ImportLimits& limits)
     : what_(std::move(what)), handler_(std::move(handler)), limits_(limits) {}
 
@@ -256,7 +293,7 @@ void IsolatedWorker::start() {
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail("make a socket");
   const std::uint64_t in_use = address_space_in_use();
   const pid_t parent = getpid();
-  child_ = fork();
+  child_ = fork_without_holds();
   if (child_ == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(1);

@@ -3,8 +3,9 @@
 //
 // The child is forked without exec. A separate program would have to be found and would load two hundred libraries again.
 // After a fork of a process with several threads, only the forking thread exists in the child, and locks of other threads
-// stay locked. glibc handles the locks of malloc, stdio and the loader. Importers run in such children only, so no thread
-// holds their locks. The child leaves by _exit: no destructor and no buffer of stdio runs twice. It closes all files of
+// stay locked: a child that takes one waits for ever. glibc handles the locks of malloc, stdio and the loader. Most
+// importers run in such children only, so no thread holds their locks. Where other threads use the library of an importer,
+// as writers of pictures use OpenEXR, they do so under a ForkHold. The child leaves by _exit: no destructor and no buffer of stdio runs twice. It closes all files of
 // the parent, including locks of folders.
 //
 // A fork of `rubble` costs about 13 ms, mostly for its 200 libraries, so one child reads many files of one folder. After
@@ -19,6 +20,16 @@
 #include <string>
 
 namespace rubble {
+
+// While it lives, no other thread forks a child to read a file in. For a thread that uses a library which such children use
+// too. It must be short, and ask() must not be called under it.
+class ForkHold {
+ public:
+  ForkHold();
+  ~ForkHold();
+  ForkHold(const ForkHold&) = delete;
+  ForkHold& operator=(const ForkHold&) = delete;
+};
 
 struct ImportLimits {
   // memory: beyond what this process has already. Not held under the sanitizers, whose shadow memory

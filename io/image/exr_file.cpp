@@ -83,6 +83,8 @@ void read_channel(Imf::InputFile& file, const std::string& name, int width, int 
     values[first + i * step] = static_cast<double>(plane[i]);
 }
 
+}  // namespace
+
 ExrImage import_exr(const std::string& path, const std::vector<std::string>& channels) {
   check_readable_file(path);
   try {
@@ -105,6 +107,8 @@ ExrImage import_exr(const std::string& path, const std::vector<std::string>& cha
         {path, 0, "", std::string("cannot be read as an EXR: ") + error.what(), "", "", ""});
   }
 }
+
+namespace {
 
 class BytesStream : public Imf::IStream {
  public:
@@ -174,7 +178,8 @@ ExrData import_exr_data(std::string_view bytes) {
 DataPicture decode_exr_data(std::string_view bytes) {
   ExrData data;
   try {
-    data = read_isolated_picture("the picture", &ExrData::values, [&] { return import_exr_data(bytes); });
+    const auto import = [&] { return pack_picture(import_exr_data(bytes), &ExrData::values); };
+    data = unpack_picture(run_isolated("the picture", "picture", import), &ExrData::values);
   } catch (const InputError& error) {
     throw RunError(error.diagnostics().front().message);
   }
@@ -190,10 +195,6 @@ DataPicture decode_exr_data(std::string_view bytes) {
     out.colour = out.colour || !(r == g && g == b);
   }
   return out;
-}
-
-ExrImage read_exr(const std::string& path, const std::vector<std::string>& channels) {
-  return read_isolated_picture(path, &ExrImage::values, [&] { return import_exr(path, channels); });
 }
 
 }  // namespace rubble

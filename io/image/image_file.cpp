@@ -143,7 +143,9 @@ class PngReader {
   ReadHandles handles_;  // of their own, so that a constructor that throws frees them
 };
 
-RgbImage decode_rgb(const std::string& path) {
+}  // namespace
+
+RgbImage import_rgb_png(const std::string& path) {
   PngReader reader(path);
   reader.expect(PNG_COLOR_TYPE_RGB, 8, "a PNG of 8-bit red, green and blue");
   RgbImage image{reader.layout().width, reader.layout().height, {}};
@@ -152,7 +154,7 @@ RgbImage decode_rgb(const std::string& path) {
   return image;
 }
 
-DepthImage decode_depth(const std::string& path) {
+DepthImage import_depth_png(const std::string& path) {
   PngReader reader(path);
   reader.expect(PNG_COLOR_TYPE_GRAY, 16, "a PNG of one 16-bit channel");
   DepthImage image{reader.layout().width, reader.layout().height, {}};
@@ -161,8 +163,6 @@ DepthImage decode_depth(const std::string& path) {
   reader.read(image.values.data());
   return image;
 }
-
-}  // namespace
 
 GrayImage to_gray(const RgbImage& colour) {
   GrayImage image{colour.width, colour.height, std::vector<std::uint8_t>(colour.rgb.size() / 3)};
@@ -196,14 +196,6 @@ void write_png(const std::string& path, const RgbImage& image, int level) {
 
 void write_png(const std::string& path, const DepthImage& image, int level) {
   write_text_file(path, encode_png(image, level));
-}
-
-RgbImage read_rgb_png(const std::string& path) {
-  return read_isolated_picture(path, &RgbImage::rgb, [&] { return decode_rgb(path); });
-}
-
-DepthImage read_depth_png(const std::string& path) {
-  return read_isolated_picture(path, &DepthImage::values, [&] { return decode_depth(path); });
 }
 
 namespace {

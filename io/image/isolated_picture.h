@@ -1,12 +1,12 @@
-// Pictures that strangers made, decoded in a child process (kernel/base/system/isolated_worker.h).
+// Pictures that strangers made, decoded in a child process (kernel/base/system/isolated_worker.h). Of the library alone; others take picture_importer.h.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "kernel/base/system/disk_cache.h"
 #include "kernel/base/error.h"
-#include "kernel/base/system/isolated_worker.h"
 
 namespace rubble {
 
@@ -17,17 +17,18 @@ inline constexpr std::int64_t kMostPixels = std::int64_t(1) << 20;  // or most o
 inline constexpr std::int64_t kMostPixels = std::int64_t(1) << 28;
 #endif
 
-// What `decode` returns: an image with width, height and, as the member `values`, its pixels.
-template <typename Image, typename Values, typename Decode>
-Image read_isolated_picture(const std::string& path, Values Image::*values, Decode decode) {
-  const std::string bytes = run_isolated(path, "picture", [&] {
-    const Image image = decode();
-    CacheWriter writer;
-    writer.put(image.width);
-    writer.put(image.height);
-    writer.put(image.*values);
-    return writer.bytes();
-  });
+// Between two processes: an image with width, height and, as the member `values`, its pixels.
+template <typename Image, typename Values>
+std::string pack_picture(const Image& image, Values Image::*values) {
+  CacheWriter writer;
+  writer.put(image.width);
+  writer.put(image.height);
+  writer.put(image.*values);
+  return writer.bytes();
+}
+
+template <typename Image, typename Values>
+Image unpack_picture(const std::string& bytes, Values Image::*values) {
   CacheReader reader(bytes);
   Image image;
   reader.get(image.width);
@@ -36,5 +37,13 @@ Image read_isolated_picture(const std::string& path, Values Image::*values, Deco
   if (!reader.whole()) throw RunError("a picture was cut short between two processes");
   return image;
 }
+
+// What the child of a PictureImporter does. Throw InputError.
+struct RgbImage;
+struct DepthImage;
+struct ExrImage;
+RgbImage import_rgb_png(const std::string& path);
+DepthImage import_depth_png(const std::string& path);
+ExrImage import_exr(const std::string& path, const std::vector<std::string>& channels);
 
 }  // namespace rubble

@@ -6,6 +6,7 @@
 #include <optional>
 #include <tuple>
 
+#include "io/image/picture_importer.h"
 #include "io/playback/recorded_picture.h"
 #include "io/playback/recorded_tables.h"
 #include "io/playback/ros_samples.h"
@@ -47,7 +48,10 @@ struct FramesFolder {
 }  // namespace
 
 struct DatasetPlayer::State {
+  explicit State(RecordedDataset played) : dataset(std::move(played)), pictures(dataset.folder) {}
+
   RecordedDataset dataset;
+  PictureImporter pictures;
   std::vector<FramesFolder> folders;  // of each camera; empty: frames come from `ros`
   std::string ros;                    // the bag or MCAP file
   std::vector<BesideSample> beside;
@@ -214,7 +218,7 @@ Frame DatasetPlayer::State::read_frame(std::size_t camera) {
   if (record.channels.measured_depth) channels.push_back("measured_depth");
   for (const ImageStream* stream : record.channels.truth) channels.push_back(stream->name);
   for (const std::string& channel : channels)
-    put_picture(*read_frames_picture(folder.path, {channel, frame.index, record.channels.measured_depth}), channel, frame);
+    put_picture(*read_frames_picture(pictures, folder.path, {channel, frame.index, record.channels.measured_depth}), channel, frame);
   while (folder.next_event < folder.events.size() && folder.events[folder.next_event].stamp_ns <= frame.stamp_ns)
     frame.events.push_back(folder.events[folder.next_event++]);
   return frame;
@@ -250,8 +254,7 @@ void DatasetPlayer::State::play_ros(const std::function<void(Sample)>& take) {
   if (losses.jpeg) notes.push_back("colour was compressed as JPEG, with losses, when it was recorded");
 }
 
-DatasetPlayer::DatasetPlayer(RecordedDataset dataset, const PlayedSamples& wanted) : state_(std::make_unique<State>()) {
-  state_->dataset = std::move(dataset);
+DatasetPlayer::DatasetPlayer(RecordedDataset dataset, const PlayedSamples& wanted) : state_(std::make_unique<State>(std::move(dataset))) {
   state_->find_frames();
   if (wanted.imus) state_->add_imus(wanted);
   if (wanted.scans) state_->add_scans();

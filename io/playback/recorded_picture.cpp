@@ -7,9 +7,8 @@
 #include <limits>
 #include <sstream>
 
-#include "io/image/exr_file.h"
 #include "io/image/flow_file.h"
-#include "io/image/image_file.h"
+#include "io/image/picture_importer.h"
 #include "io/playback/picture_sources.h"
 #include "kernel/base/error.h"
 #include "kernel/base/number_text.h"
@@ -21,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using Importer = PictureImporter&;
 using Wanted = const PictureWanted&;
 using Found = std::optional<RecordedPicture>;
 
@@ -32,35 +32,35 @@ std::vector<double> numbers(const std::vector<T>& values, double unit = 1) {
   return out;
 }
 
-Found read_colour(const std::string& folder, const std::string& name) {
-  const RgbImage image = read_rgb_png(folder + "/" + name);
+Found read_colour(Importer importer, const std::string& folder, const std::string& name) {
+  const RgbImage image = importer.read_rgb_png(folder + "/" + name);
   return RecordedPicture{name, image.width, image.height, 3, numbers(image.rgb)};
 }
 
 // unit: of the file's integers; 0: they are no depth.
-Found read_integers(const std::string& folder, const std::string& name, double unit) {
-  const DepthImage image = read_depth_png(folder + "/" + name);
+Found read_integers(Importer importer, const std::string& folder, const std::string& name, double unit) {
+  const DepthImage image = importer.read_depth_png(folder + "/" + name);
   return RecordedPicture{
       name, image.width, image.height, 1, numbers(image.values, unit > 0 ? unit : 1), unit};
 }
 
-Found read_exr_picture(const std::string& folder, const std::string& name,
+Found read_exr_picture(Importer importer, const std::string& folder, const std::string& name,
                        const std::vector<std::string>& channels) {
-  ExrImage image = read_exr(folder + "/" + name, channels);
+  ExrImage image = importer.read_exr(folder + "/" + name, channels);
   return RecordedPicture{name, image.width, image.height, static_cast<int>(channels.size()),
                          std::move(image.values)};
 }
 
 // As frames_recorder.cpp writes them. stem: of the file's name, relative to the folder.
-Found read_truth(const std::string& folder, const ImageStream& stream, const std::string& stem) {
-  if (stream.file == ImageFile::png && stream.components == 3) return read_colour(folder, stem + ".png");
-  if (stream.file == ImageFile::png) return read_integers(folder, stem + ".png", 0);
+Found read_truth(Importer importer, const std::string& folder, const ImageStream& stream, const std::string& stem) {
+  if (stream.file == ImageFile::png && stream.components == 3) return read_colour(importer, folder, stem + ".png");
+  if (stream.file == ImageFile::png) return read_integers(importer, folder, stem + ".png", 0);
   if (stream.file == ImageFile::flo) {
     const FlowImage image = read_flow(folder + "/" + stem + ".flo");
     return RecordedPicture{stem + ".flo", image.width, image.height, 2, numbers(image.flow)};
   }
   const std::vector<std::string> names[] = {{"Y"}, {"R", "G"}, {"R", "G", "B"}};
-  Found picture = read_exr_picture(folder, stem + ".exr", names[stream.components - 1]);
+  Found picture = read_exr_picture(importer, folder, stem + ".exr", names[stream.components - 1]);
   if (std::holds_alternative<PixelMaker<std::uint32_t>>(stream.make))
     for (double& value : picture->values) value = double(std::uint32_t(std::int32_t(value)));
   return picture;
@@ -68,17 +68,18 @@ Found read_truth(const std::string& folder, const ImageStream& stream, const std
 
 }  // namespace
 
-std::optional<RecordedPicture> read_frames_picture(const std::string& folder, const PictureWanted& wanted) {
+std::optional<RecordedPicture> read_frames_picture(PictureImporter& importer, const std::string& folder,
+                                                   const PictureWanted& wanted) {
   const std::string& c = wanted.channel;
   const auto name = [&](const std::string& in, const char* suffix) {
     return "frames/" + in + "/" + index_text(wanted.frame) + suffix;
   };
-  if (c == "rgb") return read_colour(folder, name("rgb", ".png"));
-  if (c == "rgb_right") return read_colour(folder, name("right", ".png"));
+  if (c == "rgb") return read_colour(importer, folder, name("rgb", ".png"));
+  if (c == "rgb_right") return read_colour(importer, folder, name("right", ".png"));
   const ImageStream* stream = find_image_stream(c);
-  if (stream && stream->is_truth()) return read_truth(folder, *stream, "frames/" + c + "/" + index_text(wanted.frame));
+  if (stream && stream->is_truth()) return read_truth(importer, folder, *stream, "frames/" + c + "/" + index_text(wanted.frame));
   const bool truth_aside = c == "depth" && wanted.measured_depth;
-  return read_exr_picture(folder, name(truth_aside ? "depth_true" : "depth", ".exr"), {"Y"});
+  return read_exr_picture(importer, folder, name(truth_aside ? "depth_true" : "depth", ".exr"), {"Y"});
 }
 
 namespace {
@@ -91,18 +92,18 @@ std::string name_in_list(const std::string& list, int row) {
   return "";
 }
 
-Found from_tum(const std::string& folder, Wanted wanted) {
+Found from_tum(Importer importer, const std::string& folder, Wanted wanted) {
   const std::string& c = wanted.channel;
   if (c != "rgb" && c != "depth" && c != "measured_depth") return std::nullopt;
   const std::string list = c == "rgb" ? "rgb" : "depth";
   std::string name = name_in_list(folder + "/tum/" + list + ".txt", wanted.frame);
   if (name.empty()) return std::nullopt;
-  if (c == "rgb") return read_colour(folder, "tum/" + name);
+  if (c == "rgb") return read_colour(importer, folder, "tum/" + name);
   if (c == "depth" && wanted.measured_depth) name.insert(name.find('/'), "_true");
-  return read_integers(folder, "tum/" + name, 1.0 / 5000);
+  return read_integers(importer, folder, "tum/" + name, 1.0 / 5000);
 }
 
-Found from_colmap(const std::string& folder, Wanted wanted) {
+Found from_colmap(Importer importer, const std::string& folder, Wanted wanted) {
   if (wanted.channel != "rgb" && wanted.channel != "rgb_right") return std::nullopt;
   const std::string images = "colmap/images/" + (wanted.camera.empty() ? "" : wanted.camera + "/");
   std::error_code failed;
@@ -114,16 +115,16 @@ Found from_colmap(const std::string& folder, Wanted wanted) {
     if (entry.path().extension() == ".png") names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   if (std::size_t(wanted.frame) >= names.size()) return std::nullopt;
-  return read_colour(folder, eye + names[std::size_t(wanted.frame)]);
+  return read_colour(importer, folder, eye + names[std::size_t(wanted.frame)]);
 }
 
-Found from_bag(const std::string& folder, Wanted wanted) {
+Found from_bag(Importer, const std::string& folder, Wanted wanted) {
   return find_ros_picture(folder, "mission.bag", wanted);
 }
-Found from_mcap(const std::string& folder, Wanted wanted) {
+Found from_mcap(Importer, const std::string& folder, Wanted wanted) {
   return find_ros_picture(folder, "mission.mcap", wanted);
 }
-Found from_rawlog(const std::string& folder, Wanted wanted) {
+Found from_rawlog(Importer, const std::string& folder, Wanted wanted) {
   return find_rawlog_picture(folder, wanted);
 }
 
@@ -159,7 +160,8 @@ std::string pixel_text(const RecordedPicture& picture, std::size_t pixel) {
 std::optional<RecordedPicture> find_recorded_picture(const std::string& folder,
                                                      const PictureWanted& wanted,
                                                      const std::set<std::string>& left_out) {
-  using Reader = Found (*)(const std::string&, Wanted);
+  using Reader = Found (*)(Importer, const std::string&, Wanted);
+  PictureImporter importer(folder);
   std::vector<Reader> readers{read_frames_picture, from_bag, from_mcap, from_rawlog, from_tum, from_colmap};
   Found rounded;
   if (!wanted.camera.empty()) {
@@ -169,7 +171,7 @@ std::optional<RecordedPicture> find_recorded_picture(const std::string& folder,
   }
   for (const Reader read : readers) {
     try {
-      Found found = read(folder, wanted);
+      Found found = read(importer, folder, wanted);
       if (!found || left_out.count(found->file)) continue;
       if (found->step == 0) return found;
       if (!rounded) rounded = std::move(found);

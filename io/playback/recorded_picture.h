@@ -35,8 +35,11 @@ std::optional<RecordedPicture> find_recorded_picture(const std::string& folder,
                                                      const PictureWanted& wanted,
                                                      const std::set<std::string>& left_out = {});
 
-// Out of the folder `frames`, which has every channel bit for bit. Throws InputError: there is none, or it is damaged.
-std::optional<RecordedPicture> read_frames_picture(const std::string& folder, const PictureWanted& wanted);
+class PictureImporter;
+
+// Out of the folder `frames`, which has every channel bit for bit. importer: of that folder. Throws InputError: there is none, or it is damaged.
+std::optional<RecordedPicture> read_frames_picture(PictureImporter& importer, const std::string& folder,
+                                                   const PictureWanted& wanted);
 
 // Makes it the channel of a frame that it was: colour, depth or a stream of ground truth. The mark of an unknown flow
 // becomes NaN, and depth of 0, where integers hold it, as well.

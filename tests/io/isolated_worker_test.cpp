@@ -136,6 +136,17 @@ TEST(IsolatedWorker, StrangersDoNotShareAChild) {
   EXPECT_NE(first, std::to_string(getpid()));
 }
 
+TEST(IsolatedWorker, AChildReadsTheFilesOfARecording) {
+  IsolatedWorker worker("picture", [](const std::string&) { return std::to_string(getpid()); });
+  worker.share_folder("/run");
+  const std::string first = worker.ask("/run/frames/rgb/0.png", "");
+  EXPECT_EQ(worker.ask("/run/cameras/a/frames/depth/0.exr", ""), first);
+  const std::string other = worker.ask("/runs/0.png", "");
+  EXPECT_NE(other, first);
+  EXPECT_EQ(worker.ask("/runs/1.png", ""), other);
+  EXPECT_NE(worker.ask("/other/1.png", ""), other);
+}
+
 // A lock of a folder would otherwise be held as long as the child lives.
 TEST(IsolatedWorker, HoldsNoFileOfTheParent) {
   ScratchFolder folder;

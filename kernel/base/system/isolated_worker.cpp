@@ -254,7 +254,11 @@ bool answer_one(int socket, const IsolatedWorker::Handler& handler, const std::s
   _exit(0);
 }
 
-std::string folder_of(const std::string& path) { return path.substr(0, path.rfind('/') + 1); }
+// shared: a folder that counts as one, with all below it.
+std::string folder_of(const std::string& path, const std::string& shared) {
+  if (!shared.empty() && path.compare(0, shared.size(), shared) == 0) return shared;
+  return path.substr(0, path.rfind('/') + 1);
+}
 
 std::string death_words(int status, const ImportLimits& limits) {
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
@@ -327,8 +331,9 @@ int IsolatedWorker::wait() {
 }
 
 std::string IsolatedWorker::ask(const std::string& path, const std::string& request) {
-  if (folder_ != folder_of(path)) stop();
-  folder_ = folder_of(path);
+  const std::string folder = folder_of(path, shared_);
+  if (folder_ != folder) stop();
+  folder_ = folder;
   if (child_ <= 0) start();
   bool answered = false;
   try {

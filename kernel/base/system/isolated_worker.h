@@ -8,7 +8,8 @@
 // as writers of pictures use OpenEXR, they do so under a ForkHold. The child leaves by _exit: no destructor and no buffer of stdio runs twice. It closes all files of
 // the parent, including locks of folders.
 //
-// A fork of `rubble` costs about 13 ms, mostly for its 200 libraries, so one child reads many files of one folder. After
+// A fork of `rubble` costs about 13 ms, mostly for its 200 libraries, so one child reads many files of one folder, or of one
+// recording. After
 // an error, and when the folder changes, the child ends and the next file gets a new one. So files of different owners do
 // not share a child.
 #pragma once
@@ -56,6 +57,9 @@ class IsolatedWorker {
   IsolatedWorker(const IsolatedWorker&) = delete;
   IsolatedWorker& operator=(const IsolatedWorker&) = delete;
 
+  // Files below that folder, which one owner made, have one child. Empty: each folder has its own.
+  void share_folder(const std::string& folder) { shared_ = folder.empty() ? "" : folder + "/"; }
+
   // What the handler makes of the request, which is about the file `path`. An InputError of the
   // handler is thrown here as it was; otherwise, InputError naming `path` when the child crashed,
   // ran into a limit or threw. RunError: no process could be made.
@@ -71,7 +75,8 @@ class IsolatedWorker {
   std::string what_;
   Handler handler_;
   ImportLimits limits_;
-  std::string folder_;  // of the file that was read last
+  std::string shared_;  // with a slash at its end
+  std::string folder_;  // whose files the child reads
   pid_t child_ = -1;
   int socket_ = -1;
 };

@@ -50,12 +50,25 @@ ExrImage PictureImporter::read_exr(const std::string& path, const std::vector<st
   return unpack_picture(worker_->ask(path, make_request(Kind::exr, path, channels)), &ExrImage::values);
 }
 
-RgbImage read_rgb_png(const std::string& path) { return PictureImporter().read_rgb_png(path); }
+namespace {
 
-DepthImage read_depth_png(const std::string& path) { return PictureImporter().read_depth_png(path); }
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+PictureImporter& importer() {  // with one child until an input ends it
+  static PictureImporter one;
+  return one;
+}
+#else
+PictureImporter importer() { return PictureImporter(); }
+#endif
+
+}  // namespace
+
+RgbImage read_rgb_png(const std::string& path) { return importer().read_rgb_png(path); }
+
+DepthImage read_depth_png(const std::string& path) { return importer().read_depth_png(path); }
 
 ExrImage read_exr(const std::string& path, const std::vector<std::string>& channels) {
-  return PictureImporter().read_exr(path, channels);
+  return importer().read_exr(path, channels);
 }
 
 }  // namespace rubble

@@ -1,5 +1,7 @@
 // From a user's table, or a --set argument, to the members that a schema binds.
 #include <algorithm>
+#include <charconv>
+#include <system_error>
 
 #include "kernel/base/tables/text_table.h"
 #include "kernel/base/text.h"

@@ -29,6 +29,8 @@ TEST(TextTable, StampsAreExact) {
   EXPECT_EQ(parse_scaled_integer("+0.1", 9), 100000000);
   EXPECT_EQ(parse_scaled_integer("-0.0000000015", 9), -2);
   EXPECT_EQ(parse_scaled_integer("1e3", 3), 1000000);
+  EXPECT_EQ(parse_scaled_integer("555555555555555555555555d-20", 3), 5555556);
+  EXPECT_EQ(parse_scaled_integer("555555555555555555555555e-655", 9), 0);
   EXPECT_FALSE(parse_scaled_integer("1e300", 9));
   EXPECT_FALSE(parse_scaled_integer("nan", 9));
 }

@@ -93,7 +93,7 @@ std::optional<std::int64_t> parse_scaled_integer(std::string_view word, int digi
   if (std::abs(scaled) > 9e18) return std::nullopt;
   const bool negative = word[0] == '-';
   if (word[0] == '-' || word[0] == '+') word.remove_prefix(1);
-  std::int64_t value = 0;
+  std::uint64_t value = 0;  // wraps round where digits before an exponent are too many; it is not used then
   int after_point = -1;  // digits taken after the point
   for (const char c : word) {
     if (c == '.') {
@@ -101,7 +101,7 @@ std::optional<std::int64_t> parse_scaled_integer(std::string_view word, int digi
     } else if (!is_digit(c)) {
       return std::int64_t(std::llround(scaled));  // it has an exponent
     } else if (after_point < digits) {
-      value = 10 * value + (c - '0');
+      value = 10 * value + std::uint64_t(c - '0');
       if (after_point >= 0) ++after_point;
     } else {
       if (after_point == digits && c >= '5') ++value;
@@ -109,7 +109,7 @@ std::optional<std::int64_t> parse_scaled_integer(std::string_view word, int digi
     }
   }
   for (int i = std::max(0, after_point); i < digits; ++i) value *= 10;
-  return negative ? -value : value;
+  return negative ? -std::int64_t(value) : std::int64_t(value);
 }
 
 std::vector<std::string_view> split_lines(std::string_view text) {

@@ -15,6 +15,7 @@ PAGE = stages.ROOT / "docs/explanation/sfm.md"
 FIGURE = stages.ROOT / "docs/pictures/demonstration.png"
 WAY = stages.ROOT / "docs/pictures/demonstration_way.jpg"
 COLUMNS = [("frames", 0), ("segments", 1), ("on_track_percent", 1), ("points", 0), ("ate_rmse_m", 2)]
+BASE = "lamp_15"
 INTO = (-3.0, 0.0, 2.0, 4.0, 6.0, 8.0, 99.0)  # borders of the figure's bins: metres into the void
 
 
@@ -103,6 +104,23 @@ def depth_table(found):
     return "Seeds that all flights have: %s.\n\n" % ", ".join(map(str, seeds)) + markdown(["flight"] + names, rows)
 
 
+def ratio_table(found, sizes):
+    """Of every flight inside, by COLMAP: true matches relative to those of the base, and frames on track, a column for each ruin."""
+    inside = [row for row in plan.ROWS if "flight=inside" in row.settings]
+    ruins = [(size, seed) for size in sizes for seed in common_seeds(found[size], [row.name for row in inside])]
+    results = {(row.name, *ruin): found[ruin[0]].get((row.name, "colmap"), {}).get(ruin[1]) for row in inside for ruin in ruins}
+    matches = {key: records.mean_matches(r["bins"]) for key, r in results.items() if r}
+
+    def cells_of(name):
+        ratios = ["%.2f" % (matches[name, *r] / matches[BASE, *r]) if (name, *r) in matches else "-" for r in ruins]
+        shares = ["%.0f" % results[name, *r]["score"]["on_track_percent"] if results[name, *r] else "-" for r in ruins]
+        return ratios + shares
+
+    names = ["%s, seed %d" % ruin for ruin in ruins]
+    return markdown(["flight"] + ["matches: " + n for n in names] + ["on track, %: " + n for n in names],
+                    [[row.title] + cells_of(row.name) for row in inside if any(results[row.name, *r] for r in ruins)])
+
+
 def show(work, kept, size):
     print(factor_table(collect(work, kept, size)))
 
@@ -118,7 +136,7 @@ def write(work, kept):
     sizes = [size for size in plan.SIZES if found[size]]
     if not sizes:
         raise SystemExit("%s has no record of these sources" % kept.path)
-    parts = {"paper": paper_table(found, sizes), "factors": "", "depths": ""}
+    parts = {"paper": paper_table(found, sizes), "ratios": ratio_table(found, sizes), "factors": "", "depths": ""}
     for size in sizes:
         title = "%s: %s. %s\n" % (size, plan.SIZES[size].title, commits(found[size]))
         parts["factors"] += title + factor_table(found[size]) + "\n"

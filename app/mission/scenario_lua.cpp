@@ -1,5 +1,6 @@
 #include "app/mission/scenario_lua.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>

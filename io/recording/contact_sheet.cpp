@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <cstdio>
 #include <vector>
 
 #include "io/base/atomic_file.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "io/base/atomic_file.h"
 #include "io/base/little_endian.h"

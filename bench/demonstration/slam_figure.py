@@ -48,7 +48,8 @@ def draw(found, mapped, path):
         curves[name] = [(judge.title, dict(fmt="s--" if judge.kind == "lidar" else "o-", color=COLOURS[judge.name]),
                          [records.shares(r["bins"], WIDTH, 2) for r in found[name, judge.name].values()])
                         for judge in slam_plan.JUDGES if (name, judge.name) in found]
-        models = mapped.get((name, "colmap"), {}).values()
+        seeds = {r["key"][2] for (flight, _), results in found.items() if flight == name for r in results.values()}  # the same ruins
+        models = [r for seed, r in mapped.get((name, "colmap"), {}).items() if seed in seeds]
         if models:
             curves[name].append(("COLMAP 3.8: a model has it", dict(fmt="x:", color="#555555"), [records.in_model(r["bins"]) for r in models]))
     deepest = np.ceil(max(max(into) for drawn in curves.values() for _, _, flights in drawn for into, _ in flights) / WIDTH) * WIDTH

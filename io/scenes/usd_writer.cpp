@@ -1,6 +1,5 @@
 // OpenUSD as text, with the schemas of UsdPhysics: https://openusd.org/release/api/usd_physics_page_front.html
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 

@@ -1,4 +1,5 @@
-// Pictures that strangers made, decoded in a child process (kernel/base/system/isolated_worker.h). Of the library alone; others take picture_importer.h.
+// Pictures that strangers made, decoded in a child process (kernel/base/system/isolated_worker.h). For the library
+// alone; others take picture_importer.h.
 #pragma once
 
 #include <cstdint>

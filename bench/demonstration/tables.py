@@ -15,7 +15,7 @@ PAGE = stages.ROOT / "docs/explanation/sfm.md"
 FIGURE = stages.ROOT / "docs/pictures/demonstration.png"
 WAY = stages.ROOT / "docs/pictures/demonstration_way.jpg"
 COLUMNS = [("frames", 0), ("segments", 1), ("on_track_percent", 1), ("points", 0), ("ate_rmse_m", 2)]
-BASE = "lamp_15"
+BASE = "lamp_15"  # the row that the others differ from by one thing
 INTO = (-3.0, 0.0, 2.0, 4.0, 6.0, 8.0, 99.0)  # borders of the figure's bins: metres into the void
 
 

@@ -11,6 +11,10 @@
 
 namespace rubble {
 
+struct RgbImage;
+struct DepthImage;
+struct ExrImage;
+
 // Of a picture that is read; more is refused.
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
 inline constexpr std::int64_t kMostPixels = std::int64_t(1) << 20;  // or most of the time goes there
@@ -40,9 +44,6 @@ Image unpack_picture(const std::string& bytes, Values Image::*values) {
 }
 
 // What the child of a PictureImporter does. Throw InputError.
-struct RgbImage;
-struct DepthImage;
-struct ExrImage;
 RgbImage import_rgb_png(const std::string& path);
 DepthImage import_depth_png(const std::string& path);
 ExrImage import_exr(const std::string& path, const std::vector<std::string>& channels);

@@ -10,6 +10,8 @@
 
 namespace rubble {
 
+class PictureImporter;
+
 struct PictureWanted {
   std::string channel;  // the name of an image stream: render/streams/image_streams.h
   int frame = 0;        // from 0
@@ -35,9 +37,8 @@ std::optional<RecordedPicture> find_recorded_picture(const std::string& folder,
                                                      const PictureWanted& wanted,
                                                      const std::set<std::string>& left_out = {});
 
-class PictureImporter;
-
-// Out of the folder `frames`, which has every channel bit for bit. importer: of that folder. Throws InputError: there is none, or it is damaged.
+// Out of the folder `frames`, which has every channel bit for bit. importer: of that folder. Throws InputError: there is
+// none, or it is damaged.
 std::optional<RecordedPicture> read_frames_picture(PictureImporter& importer, const std::string& folder,
                                                    const PictureWanted& wanted);
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <cstdio>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "io/base/atomic_file.h"

@@ -16,8 +16,8 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
-#include <new>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <system_error>
 

@@ -1,17 +1,16 @@
-// Reads untrusted files in a child process with limits. If a third-party importer crashes, takes all memory or never ends
-// on a hostile file, this process gets an InputError.
+// Reads untrusted files in a child process with limits. If a third-party importer crashes, takes all memory or never
+// ends on a hostile file, this process gets an InputError.
 //
-// The child is forked without exec. A separate program would have to be found and would load two hundred libraries again.
-// After a fork of a process with several threads, only the forking thread exists in the child, and locks of other threads
-// stay locked: a child that takes one waits for ever. glibc handles the locks of malloc, stdio and the loader. Most
-// importers run in such children only, so no thread holds their locks. Where other threads use the library of an importer,
-// as writers of pictures use OpenEXR, they do so under a ForkHold. The child leaves by _exit: no destructor and no buffer of stdio runs twice. It closes all files of
-// the parent, including locks of folders.
+// The child is forked without exec. A separate program would have to be found and would load two hundred libraries
+// again. After a fork of a process with several threads, only the forking thread exists in the child, and locks of
+// other threads stay locked: a child that takes one waits for ever. glibc handles the locks of malloc, stdio and the
+// loader. Most importers run in such children only, so no thread holds their locks. Where other threads use the
+// library of an importer, as writers of pictures use OpenEXR, they do so under a ForkHold. The child leaves by _exit:
+// no destructor and no buffer of stdio runs twice. It closes all files of the parent, including locks of folders.
 //
-// A fork of `rubble` costs about 13 ms, mostly for its 200 libraries, so one child reads many files of one folder, or of one
-// recording. After
-// an error, and when the folder changes, the child ends and the next file gets a new one. So files of different owners do
-// not share a child.
+// A fork of `rubble` costs about 13 ms, mostly for its 200 libraries, so one child reads many files of one folder, or
+// of one recording. After an error, and when the folder changes, the child ends and the next file gets a new one. So
+// files of different owners do not share a child.
 #pragma once
 
 #include <sys/types.h>

@@ -55,7 +55,7 @@ const char* const kMission = "small.lua";
 
 std::string state_hash_here(Handed& here) {
   const std::string folder = here.scratch / "here";
-  const Outcome run = run_rubble("run scripts/" + std::string(kMission) + " --quiet --out " + folder);
+  const Outcome run = run_rubble("run scripts/" + std::string(kMission) + " --force --quiet --out " + folder);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   return "state hash " + read_state_hash(folder);
 }

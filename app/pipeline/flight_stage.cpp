@@ -3,8 +3,8 @@
 
 #include "app/measures/metrics.h"
 #include "app/pipeline/stages.h"
-#include "app/planning/camera_inside.h"
 #include "app/planning/flight.h"
+#include "app/planning/solid_matter.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
 #include "scripting/sandbox/script_file.h"
@@ -34,23 +34,27 @@ FlightPlan resolve(const ResolvedMission& mission, PileSurvey& survey, RunFolder
 }
 
 void warn_of_sensors_inside(const ResolvedMission& mission, const RigFlight& flight, const PileState& pile,
-                            RunContext& context) {
+                            const RobotReadings& robots, RunContext& context) {
+  const SolidMatter solid(mission.assets, pile);
+  const auto look = [&](const std::string& who, const std::vector<Vec3>& positions) {
+    if (const auto warning = solid.warn_of(who, positions)) context.warnings.push_back(*warning);
+  };
   const std::vector<MountedCamera>& cameras = mission.scenario.cameras;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     std::vector<Vec3> positions;
     for (const Pose& pose : flight.cameras[i].world_from_camera) positions.push_back(pose.translation);
-    const auto warning = find_camera_inside(mission.assets, pile, positions);
-    if (!warning) continue;
-    const std::string who = !cameras[i].named ? "" : "camera `" + cameras[i].name + "`: ";
-    context.warnings.push_back(who + *warning);
+    look(cameras[i].named ? "camera `" + cameras[i].name + "`: the camera" : "the camera", positions);
   }
+  if (flight.cameras.empty() || flight.cameras.front().stamps_ns.empty()) return;
+  const std::vector<std::int64_t>& stamps = flight.cameras.front().stamps_ns;
   for (const SensorItem& sensor : mission.scenario.sensors) {
-    if (!sensor.figures->casts_rays() || sensor.ride.on() || flight.cameras.empty()) continue;
+    const auto& way = robots.path_of(sensor.ride, flight.path);
+    if (!sensor.figures->casts_rays() || !way) continue;
+    const std::int64_t end = robots.end_of(sensor.ride, flight.path, flight.start_ns, stamps.back());
     std::vector<Vec3> positions;
-    for (const std::int64_t stamp : flight.cameras.front().stamps_ns)
-      positions.push_back(flight.path->at(double(stamp - flight.start_ns) * 1e-9) * sensor.position);
-    if (const auto warning = find_camera_inside(mission.assets, pile, positions, sensor.key()))
-      context.warnings.push_back(*warning);
+    for (const std::int64_t stamp : stamps)
+      if (stamp <= end) positions.push_back(way->at(double(stamp - flight.start_ns) * 1e-9) * sensor.position);
+    look(sensor.key(), positions);
   }
 }
 
@@ -84,7 +88,7 @@ std::vector<Leg> plan_flight(const ResolvedMission& mission, const SettledPile& 
       mission, [&] { return plan_legs(mission.scenario, plan, pile.track, robots.readings); });
   if (mission.scenario.record_settling.on && legs.size() == 1)
     context.warnings.push_back("record_settling: the pile rests from the start: there is no settling to record");
-  warn_of_sensors_inside(mission, legs.back().flight, pile.state, context);
+  warn_of_sensors_inside(mission, legs.back().flight, pile.state, robots.readings, context);
   return legs;
 }
 

@@ -2,19 +2,11 @@
 
 #include <algorithm>
 
-#include "kernel/queries/query_triangle.h"
+#include "app/planning/solid_matter.h"
 #include "kernel/robot/parts.h"
 
 namespace rubble {
 namespace {
-
-bool is_inside(const RobotLink& link, const Vec3& point) {
-  const TriangleMesh mesh = make_link_mesh(link, "");
-  double winding = 0;
-  for (const auto& v : mesh.triangles)
-    winding += calc_winding({Vec3(mesh.positions[v[0]]), Vec3(mesh.positions[v[1]]), Vec3(mesh.positions[v[2]])}, point);
-  return winding > 0.5;
-}
 
 class Finder {
  public:
@@ -29,7 +21,8 @@ class Finder {
     const auto robot = std::size_t(std::find(names_.begin(), names_.end(), on.robot) - names_.begin());
     const RiddenLink ridden = find_link(robots_[robot], on.link, carrier.on() ? key + ".ride" : "trajectory.ride");
     const RobotLink& link = robots_[robot].model.links[ridden.link];
-    if (!is_inside(link, (ridden.link_from_rider * link_from_carrier * carrier_from_sensor).translation)) return;
+    const Vec3 place = (ridden.link_from_rider * link_from_carrier * carrier_from_sensor).translation;
+    if (calc_winding_number(make_link_mesh(link, ""), place) < 0.5) return;
     warnings_.push_back(key + ": the sensor is inside of `" + link.name +
                         "`, the link that carries it, and sees nothing else; `position` moves it out");
   }

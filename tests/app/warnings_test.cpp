@@ -100,6 +100,18 @@ TEST_F(Warnings, NameASensorThatIsBelowTheGround) {
   EXPECT_EQ(run.err.find("lidars.high"), std::string::npos) << run.err;
 }
 
+TEST_F(Warnings, NameASensorThatItsRobotCarriesBelowTheGround) {
+  write_file(scratch_ / "m.lua",
+             "return rubble.mission { pile = { layers = 0 }, camera = { width = 32, height = 24 },\n"
+             "  robots = { rubble.robot.crawler { name = 'r', position = { 0, 0, 0.001 } } },\n"
+             "  lidars = { low = { position = { 0.9, 0, -0.3 }, ride = { robot = 'r' } }, high = { position = { 0.9, 0, 0.3 }, ride = { robot = 'r' } } },\n"
+             "  trajectory = { rate_hz = 5, ride = { robot = 'r', position = { 0.9, 0, 0.3 } } } }");
+  const Outcome run = run_rubble("run " + (scratch_ / "m.lua") + " --quiet --out " + (scratch_ / "a"));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_IN("lidars.low is below the ground at frame 0", run.err);
+  EXPECT_EQ(run.err.find("lidars.high"), std::string::npos) << run.err;
+}
+
 TEST_F(Warnings, NameAPieceThatTheCameraIsInside) {
   std::string text = kTinyMission;
   text.replace(text.find("layers = 2"), 10,
@@ -109,7 +121,7 @@ TEST_F(Warnings, NameAPieceThatTheCameraIsInside) {
   const Outcome run = run_rubble("run " + (scratch_ / "m.lua") + " --quiet --out " + (scratch_ / "a"));
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_IN("the camera is inside piece 0 (", run.err);
-  EXPECT_IN("inside a piece or below the ground at 3 of 3 frames", run.err);
+  EXPECT_IN("inside something or below the ground at 3 of 3 frames", run.err);
   EXPECT_IN("the camera is inside piece 0", read_file(scratch_ / "a/manifest.json"));
   write_file(scratch_ / "m.lua", kTinyMission);
   const Outcome outside =

@@ -17,7 +17,6 @@ namespace rubble {
 namespace {
 
 constexpr int kLongestLeg = 9000;    // steps: five minutes; then a new leg goes on from there
-constexpr std::chrono::seconds kNoticeTime{3};
 constexpr double kLeastLamp = 1, kMostLamp = 100000;  // unit: cd
 constexpr double kLeastFog = 0.005, kMostFog = 10;    // unit: 1/m
 
@@ -39,7 +38,7 @@ std::array<int, 2> window_size(const DriveRequest& request) {
 DriveSession::DriveSession(const DriveRequest& request)
     : request_(request),
       folder_(choose_folder(request)),
-      window_("rubble drive", window_size(request)[0], window_size(request)[1]) {
+      screen_("drive", window_size(request)[0], window_size(request)[1]) {
   prepare_drive_folder(folder_, request_.of.force);
   link_ = DriveLink::connect(request_.of.options);
   enter(std::nullopt);
@@ -49,20 +48,20 @@ DriveSession::DriveSession(const DriveRequest& request)
 DriveSession::~DriveSession() = default;
 
 bool DriveSession::stay() {
-  for (const std::string& heard : window_.poll(controls_)) say(heard);
+  screen_.poll(controls_);
   for (const DriveAction action : controls_.take().actions)
     if (action == DriveAction::quit) quit_ = true;
   return !quit_ && !stop_requested();
 }
 
 void DriveSession::enter(std::optional<std::uint64_t> seed) {
-  window_.set_title("rubble drive: the pile settles");
+  screen_.set_title("the pile settles");
   camera_.reset();
   voids_.reset();
   choice_.voids = false;
   world_.reset();
   world_ = make_drive_world(request_, seed, [this] { return stay(); });
-  if (!world_->pile.settled) say("some pieces still moved when the time limit came");
+  if (!world_->pile.settled) screen_.say("some pieces still moved when the time limit came");
   camera_ = std::make_unique<DrivenCamera>(world_->entry, world_->plan,
                                            world_->scenario.trajectory.radius,
                                            world_->queries(), world_->limits);
@@ -73,8 +72,7 @@ void DriveSession::enter(std::optional<std::uint64_t> seed) {
   scan_ = {};
   if (link_) link_->enter(*world_);
   picture_.track.clear();
-  window_.set_title("rubble drive: " + request_.of.mission + ", seed " +
-                    std::to_string(world_->scenario.seed));
+  screen_.set_title(request_.of.mission + ", seed " + std::to_string(world_->scenario.seed));
 }
 
 void DriveSession::run() {
@@ -82,18 +80,18 @@ void DriveSession::run() {
       std::chrono::duration<double>(1 / world_->step_hz()));
   Clock::time_point due = Clock::now(), counted = due;
   while (!quit_ && !stop_requested() && (request_.steps == 0 || steps_ < request_.steps)) {
-    for (const std::string& heard : window_.poll(controls_)) say(heard);
+    screen_.poll(controls_);
     DriveInput input = controls_.take();
     if (link_) link_->add_to(input, 1 / world_->step_hz());
     for (const DriveAction action : input.actions) act(action);
     if (quit_) break;
-    if (std::exchange(one_step_, false) || (!paused_ && !waits(input))) {
+    if (std::exchange(pace_.one_step, false) || (!pace_.paused && !waits(input))) {
       follow(input.trajectories);
       step(input);
     }
     show();
     // No faster than simulation time; slower where the machine cannot keep up.
-    due = std::max(due + step_time * slowness_, Clock::now() - step_time);
+    due = std::max(due + step_time * pace_.slowness, Clock::now() - step_time);
     std::this_thread::sleep_until(due);
     const Clock::time_point now = Clock::now();
     const double took = std::chrono::duration<double>(now - counted).count();
@@ -224,31 +222,27 @@ void DriveSession::act(DriveAction action) {
       end_leg();
       return enter(world_->scenario.seed + 1);
     case DriveAction::pause:
-      if (leg_ && !going_ && !paused_) return void(going_ = true);
-      paused_ = !paused_;
-      return;
+      if (leg_ && !going_ && !pace_.paused) return void(going_ = true);
+      [[fallthrough]];
     case DriveAction::one_step:
-      one_step_ = paused_ = true;
-      return;
     case DriveAction::slow:
-      slowness_ = slowness_ == 16 ? 1 : 4 * slowness_;
-      return;
+      return void(pace_.act(action));
     case DriveAction::hulls:
       choice_.hulls = !choice_.hulls;
       return;
     case DriveAction::contacts:
     case DriveAction::frames:
-      if (!world_->robots) return say("only robots have contacts and links in a drive");
+      if (!world_->robots) return screen_.say("only robots have contacts and links in a drive");
       (action == DriveAction::contacts ? choice_.contacts : choice_.frames) ^= true;
       return;
     case DriveAction::scans:
-      if (!world_->robots || !link_) return say("echoes are those of scans that are published: a robot with a sensor that scans, and --ros1 or --ros2");
+      if (!world_->robots || !link_) return screen_.say("echoes are those of scans that are published: a robot with a sensor that scans, and --ros1 or --ros2");
       choice_.scans = !choice_.scans;
       return;
     case DriveAction::cameras:
-      return say("views of cameras are shown by `rubble inspect`");
+      return screen_.say("views of cameras are shown by `rubble inspect`");
     case DriveAction::moment:
-      return say("a drive is saved as a mission; `rubble inspect` saves moments");
+      return screen_.say("a drive is saved as a mission; `rubble inspect` saves moments");
     case DriveAction::voids:
       choice_.voids = !choice_.voids;
       return map_voids();
@@ -256,7 +250,7 @@ void DriveSession::act(DriveAction action) {
       help_ = !help_;
       return;
     case DriveAction::picture:
-      return save_picture();
+      return screen_.save_picture(folder_);
     case DriveAction::quit:
       quit_ = true;
       return;
@@ -282,11 +276,11 @@ std::vector<PictureLine> DriveSession::draw_overlay() {
   if (choice_.scans && scan_) Overlay::add_scan(*scan_, lines);
   if (choice_.voids) {
     try {
-      if (voids_->take_news()) say("the voids are mapped");
+      if (voids_->take_news()) screen_.say("the voids are mapped");
       if (const VoidMap* map = voids_->map()) add_voids(*map, lines);
     } catch (const std::exception& error) {
       choice_.voids = false;
-      say(error.what());
+      screen_.say(error.what());
     }
   }
   return project_overlay(lines, leg_->shown());
@@ -303,43 +297,23 @@ void DriveSession::show() {
   picture_.status = status();
   picture_.legend.clear();
   if (choice_.voids) picture_.legend.push_back(voids_->label());
-  picture_.notice = !help_ && Clock::now() < notice_until_ ? notice_ : "";  // help covers its place
-  picture_.help.clear();
-  if (help_) {
-    picture_.help.push_back({"", "keys", "gamepad"});
-    for (const KeyHelp& row : all_key_help())
-      picture_.help.push_back({row.what, row.keys, row.gamepad});
-  }
-  shown_ = draw_drive_picture(picture_);
-  window_.show(shown_);
+  screen_.show(picture_, help_ ? &all_key_help() : nullptr);
 }
 
 std::vector<std::string> DriveSession::status() const {
   const Scenario& s = world_->scenario;
   const DrivenPose& pose = camera_->pose();
-  return {words("seed %llu   leg %d   frame %d   %.2f m/s   lamp %s   fog %s%s%s",
+  const char* pace = pace_.paused || going_ ? pace_.describe() : "A KEY STARTS TIME";
+  return {words("seed %llu   leg %d   frame %d   %.2f m/s   lamp %s   fog %s%s   %s",
                 static_cast<unsigned long long>(s.seed), legs_, leg_->frames(), camera_->speed(),
                 s.lamp.on ? words("%.0f cd", s.lamp.intensity_cd).c_str() : "off",
                 s.air.fog_density > 0 ? words("%.3f 1/m", s.air.fog_density).c_str() : "off",
                 camera_->held_back() ? "   TOUCHES" : "",
-                paused_ ? "   PAUSED" : !going_ ? "   A KEY STARTS TIME" : slowness_ == 4 ? "   TIME 1/4" : slowness_ == 16 ? "   TIME 1/16" : ""),
+                pace),
           words("x %.2f  y %.2f  z %.2f m   roll %.0f  pitch %.0f  yaw %.0f deg   %.0f steps/s   %s"
                 "   H: help",
                 pose.position.x, pose.position.y, pose.position.z, pose.rpy_deg.x, pose.rpy_deg.y,
                 pose.rpy_deg.z, rate_, controls_.gamepads() > 0 ? "gamepad" : "no gamepad")};
-}
-
-void DriveSession::say(const std::string& text) {
-  print_err("drive: %s\n", text.c_str());
-  notice_ = text;
-  notice_until_ = Clock::now() + kNoticeTime;
-}
-
-void DriveSession::save_picture() {
-  if (shown_.rgb.empty()) return;
-  const std::string path = folder_ + words("/picture_%03d.png", ++pictures_);
-  write_png(path, shown_, 6);
-  say(path);
 }
 
 ExitCode drive_mission(const DriveRequest& request) {

@@ -7,11 +7,10 @@
 
 #include "app/drive/drive_leg.h"
 #include "app/drive/drive_link.h"
-#include "app/drive/drive_window.h"
+#include "app/drive/drive_screen.h"
 #include "app/drive/drive_world.h"
 #include "app/drive/overlay/overlay.h"
 #include "app/drive/overlay/void_survey.h"
-#include "io/image/drive_picture.h"
 #include "io/live/complaints.h"
 
 namespace rubble {
@@ -43,34 +42,29 @@ class DriveSession {
   void map_voids();
   std::vector<PictureLine> draw_overlay();
   std::vector<std::string> status() const;
-  void say(const std::string& words);
-  void save_picture();
 
   DriveRequest request_;
   std::string folder_;
   Controls controls_;
-  DriveWindow window_;
+  DriveScreen screen_;
   std::unique_ptr<DriveWorld> world_;
   std::unique_ptr<DrivenCamera> camera_;
   std::unique_ptr<DriveLink> link_;  // none unless asked for
   std::unique_ptr<DriveLeg> leg_;  // none until its first step
   MapFrame map_frame_;
   DrivePicture picture_;
-  RgbImage map_, shown_;
-  int legs_ = 0, steps_ = 0, pictures_ = 0;
+  RgbImage map_;
+  int legs_ = 0, steps_ = 0;
   double fog_ = 0.15;  // what the fog is turned on to; unit: 1/m
   double rate_ = 0;    // steps a second that are reached
-  bool help_ = false, paused_ = false, quit_ = false;
-  bool one_step_ = false;  // although it is paused
-  bool going_ = false;     // somebody asked for something since this leg began
-  int slowness_ = 1;       // of time
+  ViewPace pace_;
+  bool help_ = false, quit_ = false;
+  bool going_ = false;  // somebody asked for something since this leg began
   OverlayChoice choice_;
   std::unique_ptr<Overlay> overlay_;  // of this world
   std::unique_ptr<VoidSurvey> voids_;  // likewise
   std::shared_ptr<const RangeScan> scan_;  // the last
-  Complaints complaints_{[this](const std::string& line) { say(line); }};
-  std::string notice_;
-  Clock::time_point notice_until_;
+  Complaints complaints_{[this](const std::string& line) { screen_.say(line); }};
 };
 
 }  // namespace rubble

@@ -118,7 +118,7 @@ Inspector::Inspector(const DriveRequest& request)
     : request_(request),
       folder_(choose_inspection_folder(request)),
       controls_(LeftButton::pulls),
-      window_("rubble inspect", inspect_picture_size(request.width, request.height)[0],
+      screen_("inspect", inspect_picture_size(request.width, request.height)[0],
               inspect_picture_size(request.width, request.height)[1]) {
   prepare_inspection_folder(folder_, request_.of.force);
 }
@@ -132,7 +132,7 @@ bool Inspector::leaving() const {
 double Inspector::step_time() const { return robots_ ? robots_->step_time() : mission_->scenario.settle.step; }
 
 void Inspector::enter(std::optional<std::uint64_t> seed) {
-  window_.set_title("rubble inspect: loading");
+  screen_.set_title("loading");
   eye_ = nullptr, renderer_ = nullptr, robots_ = nullptr, voids_ = nullptr, pile_ = nullptr;
   RunRequest of = request_.of;
   if (seed) of.seed = seed;
@@ -143,7 +143,7 @@ void Inspector::enter(std::optional<std::uint64_t> seed) {
   voids_ = std::make_unique<VoidSurvey>(mission_->scenario.voids, mission_->assets);
   spring_.release();
   flight_.clear(), scan_.reset(), touched_ = 0;
-  window_.set_title("rubble inspect: " + of.mission + ", seed " + std::to_string(mission_->scenario.seed));
+  screen_.set_title(of.mission + ", seed " + std::to_string(mission_->scenario.seed));
 }
 
 void Inspector::draw_scene(const Scene& scene) {
@@ -199,9 +199,9 @@ void Inspector::run() {
     while (!leaving()) {
       turn();
       // What is pulled or stepped is not at rest any more.
-      const bool step = spring_.holds() ? !paused_ || one_step_ : one_step_;
+      const bool step = spring_.holds() ? !pace_.paused || pace_.one_step : pace_.one_step;
       if (!step || leaving()) continue;
-      one_step_ = false;
+      pace_.one_step = false;
       push_spring();
       owed_ = step_time();
       pile_->settle([this] { return between(); });
@@ -213,13 +213,13 @@ void Inspector::run() {
 
 void Inspector::note_rest() {
   if (leaving()) return;
-  say(words(pile_->settled() ? "the pile rests after %.2f s" : "the pile does not rest: the time limit came after %.2f s", world().time()));
+  screen_.say(words(pile_->settled() ? "the pile rests after %.2f s" : "the pile does not rest: the time limit came after %.2f s", world().time()));
 }
 
 // Victims, fines and robots come when the pile rests, as in a run.
 void Inspector::begin_robots() {
   spring_.release();
-  say("the robots go on by the mission");
+  screen_.say("the robots go on by the mission");
   rested_ = pile_->rested();
   with_lines_of_script(*mission_, [&] {
     complete_pile(*mission_, *run_, rested_);
@@ -235,13 +235,13 @@ void Inspector::begin_robots() {
 
 bool Inspector::between() {
   if (robots_ && robots_->steps() == robots_->steps_of_mission() && robots_->steps() > 0) {
-    paused_ = true;
-    say("the mission ends here; space goes on");
+    pace_.paused = true;
+    screen_.say("the mission ends here; space goes on");
   }
   owed_ -= step_time();
-  while (!leaving() && (paused_ ? !one_step_ : owed_ < 0.5 * step_time())) turn();
-  if (paused_) owed_ = 0;
-  one_step_ = false;
+  while (!leaving() && (pace_.paused ? !pace_.one_step : owed_ < 0.5 * step_time())) turn();
+  if (pace_.paused) owed_ = 0;
+  pace_.one_step = false;
   push_spring();
   return !leaving();
 }
@@ -258,7 +258,7 @@ void Inspector::push_spring() {
 }
 
 void Inspector::turn() {
-  for (const std::string& heard : window_.poll(controls_)) say(heard);
+  screen_.poll(controls_);
   const DriveInput input = controls_.take();
   for (const DriveAction action : input.actions) act(action);
   if (leaving()) return;
@@ -272,7 +272,7 @@ void Inspector::turn() {
   pull(controls_.pointer());
   show();
   ++turns_;
-  if (!paused_) owed_ += 1 / (kPictureRate * slowness_);
+  if (!pace_.paused) owed_ += 1 / (kPictureRate * pace_.slowness);
   const auto picture_time = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / kPictureRate));
   due_ = std::max(due_ + picture_time, Clock::now() - picture_time);
   std::this_thread::sleep_until(due_);
@@ -297,7 +297,7 @@ void Inspector::pull(const Pointer& pointer) {
     const std::uint32_t id = frame_.get<std::uint32_t>("instance").at(pixel);
     if (id >= std::uint32_t(world().size())) return;
     held_depth_ = double(frame_.depth[pixel]);
-    if (!spring_.grab(world(), int(id), at_depth(u, v, held_depth_))) say("this piece is fixed");
+    if (!spring_.grab(world(), int(id), at_depth(u, v, held_depth_))) screen_.say("this piece is fixed");
   }
   if (spring_.holds()) spring_.pull_to(at_depth(pointer.x, pointer.y, held_depth_));
 }
@@ -320,14 +320,9 @@ void Inspector::act(DriveAction action) {
       next_ = mission_->scenario.seed + 1;
       return;
     case DriveAction::pause:
-      paused_ = !paused_;
-      return;
     case DriveAction::one_step:
-      one_step_ = paused_ = true;
-      return;
     case DriveAction::slow:
-      slowness_ = slowness_ == 16 ? 1 : 4 * slowness_;
-      return;
+      return void(pace_.act(action));
     case DriveAction::hulls:
       choice_.hulls = !choice_.hulls;
       return;
@@ -336,19 +331,19 @@ void Inspector::act(DriveAction action) {
       return;
     case DriveAction::frames:
       choice_.frames = !choice_.frames;
-      if (choice_.frames && !robots_) say("links are those of robots, which come when the pile rests");
+      if (choice_.frames && !robots_) screen_.say("links are those of robots, which come when the pile rests");
       return;
     case DriveAction::scans:
       choice_.scans = !choice_.scans;
-      if (choice_.scans && !robots_) say("echoes are those of scans on robots, which come when the pile rests");
+      if (choice_.scans && !robots_) screen_.say("echoes are those of scans on robots, which come when the pile rests");
       return;
     case DriveAction::cameras:
       choice_.cameras = !choice_.cameras;
       if (choice_.cameras && pile_->settling() && !mission_->scenario.trajectory.ride.on() &&
           mission_->scenario.trajectory.needs_pile())
-        say("the flight depends on the pile: views are shown when it rests");
+        screen_.say("the flight depends on the pile: views are shown when it rests");
       if (choice_.cameras && mission_->scenario.trajectory.ride.on() && !robots_)
-        say("the cameras ride on a robot, which comes when the pile rests");
+        screen_.say("the cameras ride on a robot, which comes when the pile rests");
       return;
     case DriveAction::voids:
       choice_.voids = !choice_.voids;
@@ -359,7 +354,7 @@ void Inspector::act(DriveAction action) {
       help_ = !help_;
       return;
     case DriveAction::picture:
-      return save_picture();
+      return screen_.save_picture(folder_);
     case DriveAction::quit:
       quit_ = true;
       return;
@@ -373,8 +368,8 @@ void Inspector::act(DriveAction action) {
 }
 
 void Inspector::save_moment() {
-  if (robots_) return say("a moment with robots cannot be saved");
-  if (!pile_->can_save()) return say("a building that collapses cannot be saved: its stresses are not; wait until it rests");
+  if (robots_) return screen_.say("a moment with robots cannot be saved");
+  if (!pile_->can_save()) return screen_.say("a building that collapses cannot be saved: its stresses are not; wait until it rests");
   std::string comment = words("%s, seed %llu, after %.4f s of settling.", request_.of.mission.c_str(),
                               static_cast<unsigned long long>(mission_->scenario.seed), world().time());
   comment += touched_ > 0 ? "\n" + words("By hand: pieces were pulled during %lld steps.", static_cast<long long>(touched_))
@@ -384,7 +379,7 @@ void Inspector::save_moment() {
                                          !request_.of.asset_packs.empty());
   print_out("%s\n", path.c_str());
   std::fflush(stdout);
-  say(path);
+  screen_.say(path);
 }
 
 void Inspector::map_voids() {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "app/drive/drive_request.h"
-#include "app/drive/drive_window.h"
+#include "app/drive/drive_screen.h"
 #include "app/drive/driven_camera.h"
 #include "app/drive/inspect/inspected_pile.h"
 #include "app/drive/inspect/mouse_spring.h"
@@ -64,13 +64,11 @@ class Inspector {
   std::vector<PictureLabel> legend() const;
   std::vector<std::string> status() const;
   void show();
-  void say(const std::string& words);
-  void save_picture();
 
   DriveRequest request_;
   std::string folder_;
   Controls controls_;
-  DriveWindow window_;
+  DriveScreen screen_;
   std::unique_ptr<Device> device_;  // none until there is something to draw
   std::unique_ptr<RunContext> run_;
   std::unique_ptr<ResolvedMission> mission_;
@@ -91,16 +89,14 @@ class Inspector {
   std::int64_t touched_ = 0;    // steps with the spring, so far
   Frame frame_;
   DrivePicture picture_;
-  RgbImage shown_;
   std::shared_ptr<const RangeScan> scan_;  // the last
-  int frames_ = 0, pictures_ = 0, moments_ = 0, turns_ = 0;
+  int frames_ = 0, moments_ = 0, turns_ = 0;
   double owed_ = 0;  // time of the world that the pictures so far ask for; unit: s
   double rate_ = 0;  // pictures a second that are reached
-  bool help_ = false, lamp_ = false, paused_ = false, one_step_ = false, quit_ = false;
+  ViewPace pace_;
+  bool help_ = false, lamp_ = false, quit_ = false;
   std::optional<std::uint64_t> next_;  // seed of the world that comes instead
-  int slowness_ = 1;                   // of time
-  std::string notice_;
-  Clock::time_point notice_until_, due_, counted_;
+  Clock::time_point due_, counted_;
 };
 
 }  // namespace rubble

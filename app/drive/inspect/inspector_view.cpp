@@ -2,12 +2,10 @@
 #include <algorithm>
 #include <array>
 
-#include "app/drive/drive_window.h"
 #include "app/drive/inspect/inspector.h"
 #include "app/pipeline/stages.h"
 #include "app/planning/flight.h"
 #include "app/sensors/build_camera.h"
-#include "app/support/print.h"
 
 namespace rubble {
 namespace {
@@ -16,7 +14,6 @@ constexpr double kFrustumLength = 0.5;  // unit: m
 constexpr std::size_t kShownPoses = 4;  // of the rig on its flight
 constexpr double kHullReach = 40;       // unit: m
 constexpr double kPathStep = 0.03;      // of its line; unit: m
-constexpr std::chrono::seconds kNoticeTime{4};
 constexpr std::array<std::uint8_t, 3> kSpringColour{120, 255, 90};
 
 }  // namespace
@@ -32,7 +29,7 @@ void Inspector::add_cameras(std::vector<OverlayLine>& lines) {
       flight_ = with_lines_of_script(*mission_, [&] { return resolve_flight(scenario, survey).poses; });
     } catch (const InputError& error) {
       choice_.cameras = false;
-      return say(error.what());
+      return screen_.say(error.what());
     }
   }
   std::vector<Vec3> path;
@@ -62,11 +59,11 @@ std::vector<PictureLine> Inspector::draw_overlay() {
   if (choice_.cameras) add_cameras(lines);
   if (choice_.voids) {
     try {
-      if (voids_->take_news()) say("the voids are mapped");
+      if (voids_->take_news()) screen_.say("the voids are mapped");
       if (const VoidMap* map = voids_->map()) add_voids(*map, lines);
     } catch (const std::exception& error) {
       choice_.voids = false;
-      say(error.what());
+      screen_.say(error.what());
     }
   }
   if (spring_.holds()) lines.push_back({spring_.point(world()), spring_.target(), kSpringColour, true});
@@ -93,8 +90,8 @@ std::vector<std::string> Inspector::status() const {
   const Vec3& p = camera_->pose().position;
   const std::string state =
       robots_ ? words("t %.2f s   robots, %d of %d awake", world().time(), world().awake_count(), world().size()) : pile_->describe();
-  return {words("seed %llu   %s%s%s", static_cast<unsigned long long>(mission_->scenario.seed), state.c_str(),
-                paused_ ? "   PAUSED" : slowness_ == 4 ? "   TIME 1/4" : slowness_ == 16 ? "   TIME 1/16" : "",
+  return {words("seed %llu   %s   %s%s", static_cast<unsigned long long>(mission_->scenario.seed), state.c_str(),
+                pace_.describe(),
                 touched_ > 0 ? "   TOUCHED" : ""),
           words("x %.2f  y %.2f  z %.2f m   %.2f m/s   %.0f pictures/s   H: help", p.x, p.y, p.z, camera_->speed(), rate_)};
 }
@@ -104,27 +101,7 @@ void Inspector::show() {
   picture_.lines = draw_overlay();
   picture_.legend = legend();
   picture_.status = status();
-  picture_.notice = !help_ && Clock::now() < notice_until_ ? notice_ : "";
-  picture_.help.clear();
-  if (help_) {
-    picture_.help.push_back({"", "keys", "gamepad"});
-    for (const KeyHelp& row : all_inspector_help()) picture_.help.push_back({row.what, row.keys, row.gamepad});
-  }
-  shown_ = draw_drive_picture(picture_);
-  window_.show(shown_);
-}
-
-void Inspector::say(const std::string& text) {
-  print_err("inspect: %s\n", text.c_str());
-  notice_ = text;
-  notice_until_ = Clock::now() + kNoticeTime;
-}
-
-void Inspector::save_picture() {
-  if (shown_.rgb.empty()) return;
-  const std::string path = folder_ + words("/picture_%03d.png", ++pictures_);
-  write_png(path, shown_, 6);
-  say(path);
+  screen_.show(picture_, help_ ? &all_inspector_help() : nullptr);
 }
 
 }  // namespace rubble

@@ -38,8 +38,9 @@ class Judges:
             return [text.strip(), "defaults, sequential"]
         return [judge, (HERE / "requirements.txt").read_text(), (HERE / "judge_pycolmap.py").read_text()]
 
-    def depends(self, dataset_key, row, judge):
-        return {"dataset": dataset_key, "calibrated": row.calibrated, "judge": self.identity(judge)}
+    def depends(self, dataset_key, row, judge, run=1):
+        again = {"run": run} if run > 1 else {}
+        return {"dataset": dataset_key, "calibrated": row.calibrated, "judge": self.identity(judge), **again}
 
     def python(self):
         return environments.environment(self.work.out / "venv", HERE / "requirements.txt")
@@ -55,12 +56,12 @@ class Judges:
         """Deletes what only judges need."""
         shutil.rmtree(self.work.out / "matched" / stages.digest("matched", self.depends(dataset_key, row, "pycolmap")), ignore_errors=True)
 
-    def find(self, dataset_key, row, judge):
+    def find(self, dataset_key, row, judge, run=1):
         """The result, where it is there already; else None."""
-        path = self.work.out / "judged" / stages.digest("judged", self.depends(dataset_key, row, judge)) / "result.json"
+        path = self.work.out / "judged" / stages.digest("judged", self.depends(dataset_key, row, judge, run)) / "result.json"
         return json.loads(path.read_text()) if path.exists() else None
 
-    def judge(self, seed, row, dataset, judge, deepest):
+    def judge(self, seed, row, dataset, judge, deepest, run=1):
         """deepest: as of matches.measure()."""
         def make(folder):
             images, log = dataset / "colmap" / "images", folder / "log.txt"
@@ -73,7 +74,8 @@ class Judges:
             self.score(folder, dataset, log, deepest)
             (folder / "database.db").unlink()
 
-        folder = self.work.stage("judged", self.depends(dataset.parent.name, row, judge), make, "seed %d, %s, %s" % (seed, row.name, judge))
+        folder = self.work.stage("judged", self.depends(dataset.parent.name, row, judge, run), make,
+                                 "seed %d, %s, %s, run %d" % (seed, row.name, judge, run))
         return json.loads((folder / "result.json").read_text())
 
     def score(self, folder, dataset, log, deepest):

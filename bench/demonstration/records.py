@@ -107,16 +107,21 @@ def flight_parts(flown, row):
 
 
 class MappingRecords(Records):
-    """Of structure from motion. judge: its identity (judges.py) for depends(), its name for the others."""
+    """Of structure from motion. judge: its identity (judges.py) for depends(), its name for the others. run: from 1; a judge that
+    sees the same pictures again may find something else."""
 
     def depends(self, flown, row, judge):
         return super().depends(*flight_parts(flown, row), row.calibrated, judge, [stages.digest_file(HERE / name) for name in MEASURES])
 
-    def find(self, size, seed, row, judge, depends):
-        return super().find((size, row.name, seed, judge), depends)
+    def find(self, size, seed, row, judge, depends, run=1):
+        return super().find(self.key(size, seed, row, judge, run), depends)
 
-    def add(self, size, seed, row, judge, depends, result, commit):
-        super().add((size, row.name, seed, judge), depends, commit, {"score": result["score"], "bins": bins_of(result["frames"])})
+    def add(self, size, seed, row, judge, depends, result, commit, run=1):
+        super().add(self.key(size, seed, row, judge, run), depends, commit, {"score": result["score"], "bins": bins_of(result["frames"])})
+
+    @staticmethod
+    def key(size, seed, row, judge, run):
+        return (size, row.name, seed, judge) + ((run,) if run > 1 else ())
 
 
 def commit_of(run):

@@ -15,6 +15,7 @@ PAGE = stages.ROOT / "docs/explanation/sfm.md"
 FIGURE = stages.ROOT / "docs/pictures/demonstration.png"
 WAY = stages.ROOT / "docs/pictures/demonstration_way.jpg"
 COLUMNS = [("frames", 0), ("segments", 1), ("on_track_percent", 1), ("points", 0), ("ate_rmse_m", 2)]
+MOST_RUNS = 20  # of a judge on the same pictures
 BASE = "lamp_15"  # the row that the others differ from by one thing
 INTO = (-3.0, 0.0, 2.0, 4.0, 6.0, 8.0, 99.0)  # borders of the figure's bins: metres into the void
 
@@ -121,6 +122,24 @@ def ratio_table(found, sizes):
                     [[row.title] + cells_of(row.name) for row in inside if any(results[row.name, *r] for r in ruins)])
 
 
+def repeats_table(work, kept, sizes):
+    """Every judge that saw the same pictures more than once: what each run found."""
+    rows = []
+    for size in sizes:
+        flown, judging = flights.Flights(work, plan.SIZES[size]), judges.Judges(work)
+        for seed, row in plan.order(range(1, 6), []):
+            for judge in plan.JUDGES:
+                depends = kept.depends(flown, row, judging.identity(judge))
+                runs = [r for n in range(1, MOST_RUNS + 1) if (r := kept.find(size, seed, row, judge, depends, n))]
+                if len(runs) < 2:
+                    continue
+                scores = [r["score"] for r in runs]
+                rows.append(["%s, %s, seed %d" % (row.title, size, seed), judge, "%d" % scores[0]["frames"]] + [
+                    ", ".join("%d" % s[key] for s in scores) for key in ("on_track", "segments", "points")] + [
+                    ", ".join("%.0f" % mean(r["bins"]) for r in runs) for mean in (records.mean_keypoints, records.mean_matches)])
+    return markdown(["flight", "judge", "images", "on track", "segments", "points", "keypoints / MP", "true matches / MP"], rows)
+
+
 def show(work, kept, size):
     print(factor_table(collect(work, kept, size)))
 
@@ -128,7 +147,7 @@ def show(work, kept, size):
 def commits(found):
     """Of the records, as a sentence."""
     names = sorted({r["commit"][:8] for results in found.values() for r in results.values()})
-    return "Programs of commits %s, which give the same bits.\n" % ", ".join(names) if len(names) > 1 else "Program of commit %s.\n" % names[0]
+    return "Program%s of commit%s %s.\n" % (("s", "s", ", ".join(names)) if len(names) > 1 else ("", "", names[0]))
 
 
 def write(work, kept):
@@ -136,7 +155,8 @@ def write(work, kept):
     sizes = [size for size in plan.SIZES if found[size]]
     if not sizes:
         raise SystemExit("%s has no record of these sources" % kept.path)
-    parts = {"paper": paper_table(found, sizes), "ratios": ratio_table(found, sizes), "factors": "", "depths": ""}
+    parts = {"paper": paper_table(found, sizes), "ratios": ratio_table(found, sizes), "repeats": repeats_table(work, kept, sizes), "factors": "",
+             "depths": ""}
     for size in sizes:
         title = "%s: %s. %s\n" % (size, plan.SIZES[size].title, commits(found[size]))
         parts["factors"] += title + factor_table(found[size]) + "\n"

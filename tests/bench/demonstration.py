@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """usage: demonstration.py PROGRAM OUT: two rows of the demonstration, small, and what must hold of them on any machine:
-outside mapping works, and in the dark void it breaks. COLMAP's threads make its results vary a little from run to run."""
+outside mapping works, and in the dark void it breaks. COLMAP's threads make its results vary from run to run."""
 import json
 import pathlib
 import shutil
@@ -27,7 +27,8 @@ def main():
     assert len(judged) == len(ROWS), len(judged)
     outside, inside = sorted(judged, key=lambda r: r["score"]["on_track_percent"], reverse=True)
     assert outside["score"]["on_track_percent"] > 90 and outside["score"]["segments"] == 1, outside["score"]
-    assert inside["score"]["on_track_percent"] < 80 and inside["score"]["segments"] != 1, inside["score"]
+    # Into several models, or with much of the way in none: which of the two varies.
+    assert inside["score"]["on_track_percent"] < 80, inside["score"]
     deepest = max(f["into"] for f in inside["frames"])
     near, deep = (statistics.mean(f["matches_mp"] for f in inside["frames"] if "matches_mp" in f and low < f["into"] <= high)
                   for low, high in ((0, 4), (deepest - 4, deepest)))

@@ -137,6 +137,9 @@ def check_records():
         assert again.find("small", 3, row, "colmap", depends) is None and again.find("full", 2, row, "colmap", depends) is None
         assert again.find("small", 2, row, "colmap", again.depends(flown, row, ["judge", "2"])) is None
         assert again.find("small", 2, row, "colmap", dict(depends, golden="of another kernel")) is None
+        again.add("small", 2, row, "colmap", depends, {"score": {"frames": 9}, "frames": frames}, "0123456789ab", 2)
+        runs = [records.MappingRecords(path).find("small", 2, row, "colmap", depends, run) for run in (1, 2, 3)]
+        assert [r and r["score"]["frames"] for r in runs] == [7, 9, None], runs
 
 
 def check_plan():

@@ -36,14 +36,15 @@ FlightPlan resolve(const ResolvedMission& mission, PileSurvey& survey, RunFolder
 void warn_of_sensors_inside(const ResolvedMission& mission, const RigFlight& flight, const PileState& pile,
                             const RobotReadings& robots, RunContext& context) {
   const SolidMatter solid(mission.assets, pile);
-  const auto look = [&](const std::string& who, const std::vector<Vec3>& positions) {
-    if (const auto warning = solid.warn_of(who, positions)) context.warnings.push_back(*warning);
+  const bool rig_rides = mission.scenario.trajectory.ride.on();
+  const auto look = [&](const std::string& who, const std::vector<Vec3>& positions, const Carrier& carrier) {
+    if (const auto warning = solid.warn_of(who, positions, rig_rides || carrier.on())) context.warnings.push_back(*warning);
   };
   const std::vector<MountedCamera>& cameras = mission.scenario.cameras;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     std::vector<Vec3> positions;
     for (const Pose& pose : flight.cameras[i].world_from_camera) positions.push_back(pose.translation);
-    look(cameras[i].named ? "camera `" + cameras[i].name + "`: the camera" : "the camera", positions);
+    look(cameras[i].named ? "camera `" + cameras[i].name + "`: the camera" : "the camera", positions, cameras[i].ride);
   }
   if (flight.cameras.empty() || flight.cameras.front().stamps_ns.empty()) return;
   const std::vector<std::int64_t>& stamps = flight.cameras.front().stamps_ns;
@@ -54,7 +55,7 @@ void warn_of_sensors_inside(const ResolvedMission& mission, const RigFlight& fli
     std::vector<Vec3> positions;
     for (const std::int64_t stamp : stamps)
       if (stamp <= end) positions.push_back(way->at(double(stamp - flight.start_ns) * 1e-9) * sensor.position);
-    look(sensor.key(), positions);
+    look(sensor.key(), positions, sensor.ride);
   }
 }
 

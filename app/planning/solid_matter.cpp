@@ -97,7 +97,7 @@ std::string SolidMatter::describe(const Vec3& point) const {
   return point.z < 0 ? kBelow : "";
 }
 
-std::optional<std::string> SolidMatter::warn_of(const std::string& who, const std::vector<Vec3>& positions) const {
+std::optional<std::string> SolidMatter::warn_of(const std::string& who, const std::vector<Vec3>& positions, bool rides) const {
   std::size_t frames = 0, first = 0;
   std::string where;
   for (std::size_t f = 0; f < positions.size(); ++f) {
@@ -111,7 +111,7 @@ std::optional<std::string> SolidMatter::warn_of(const std::string& who, const st
   std::snprintf(place, sizeof place, "{%.2f, %.2f, %.2f}", at.x, at.y, at.z);
   return who + " is " + where + " at frame " + std::to_string(first) + ", " + place +
          ", and inside something or below the ground at " + std::to_string(frames) + " of " + std::to_string(positions.size()) +
-         " frames: move its path, or fly with trajectory.plan = \"avoid\"";
+         " frames: " + (rides ? "move it on its robot, or the robot's way" : "move its path, or fly with trajectory.plan = \"avoid\"");
 }
 
 }  // namespace rubble

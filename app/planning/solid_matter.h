@@ -20,8 +20,8 @@ class SolidMatter {
   SolidMatter(const AssetLibrary& assets, const PileState& pile);
 
   // A sentence that names the first of the positions (world; unit: m; one a frame) that is inside of something, that thing,
-  // and how many there are; nothing: none is. who: "the camera", or another sensor.
-  std::optional<std::string> warn_of(const std::string& who, const std::vector<Vec3>& positions) const;
+  // and how many there are; nothing: none is. who: "the camera", or another sensor. rides: a robot carries it.
+  std::optional<std::string> warn_of(const std::string& who, const std::vector<Vec3>& positions, bool rides = false) const;
 
  private:
   struct Body {

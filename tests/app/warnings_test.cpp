@@ -109,6 +109,7 @@ TEST_F(Warnings, NameASensorThatItsRobotCarriesBelowTheGround) {
   const Outcome run = run_rubble("run " + (scratch_ / "m.lua") + " --quiet --out " + (scratch_ / "a"));
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_IN("lidars.low is below the ground at frame 0", run.err);
+  EXPECT_IN("frames: move it on its robot, or the robot's way", run.err);
   EXPECT_EQ(run.err.find("lidars.high"), std::string::npos) << run.err;
 }
 

@@ -15,7 +15,6 @@ PAGE = stages.ROOT / "docs/explanation/sfm.md"
 FIGURE = stages.ROOT / "docs/pictures/demonstration.png"
 WAY = stages.ROOT / "docs/pictures/demonstration_way.jpg"
 COLUMNS = [("frames", 0), ("segments", 1), ("on_track_percent", 1), ("points", 0), ("ate_rmse_m", 2)]
-MOST_RUNS = 20  # of a judge on the same pictures
 BASE = "lamp_15"  # the row that the others differ from by one thing
 INTO = (-3.0, 0.0, 2.0, 4.0, 6.0, 8.0, 99.0)  # borders of the figure's bins: metres into the void
 
@@ -124,13 +123,13 @@ def ratio_table(found, sizes):
 
 def repeats_table(work, kept, sizes):
     """Every judge that saw the same pictures more than once: what each run found."""
-    rows = []
+    rows, last = [], max((key[4] for key in kept.kept if len(key) > 4), default=1)
     for size in sizes:
         flown, judging = flights.Flights(work, plan.SIZES[size]), judges.Judges(work)
         for seed, row in plan.order(range(1, 6), []):
             for judge in plan.JUDGES:
                 depends = kept.depends(flown, row, judging.identity(judge))
-                runs = [r for n in range(1, MOST_RUNS + 1) if (r := kept.find(size, seed, row, judge, depends, n))]
+                runs = [r for n in range(1, last + 1) if (r := kept.find(size, seed, row, judge, depends, n))]
                 if len(runs) < 2:
                     continue
                 scores = [r["score"] for r in runs]

@@ -22,7 +22,7 @@ double EvertingTube::collapse_moment() const {
 double EvertingTube::wrinkling_moment() const { return 0.5 * collapse_moment(); }
 
 double EvertingTube::tip_force(double grown, double turning) const {
-  const double drag = tail_drag * grown * portable::exp(tail_friction * turning);
+  const double drag = tail_drag * grown * portable::exp(std::min(tail_friction * turning, 700.0));
   return std::max(0.0, (pressure - yield_pressure) * area() - drag);
 }
 double EvertingTube::speed_loss() const { return area() / extensibility; }

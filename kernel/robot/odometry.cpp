@@ -52,14 +52,18 @@ double WheelOdometry::way_of(const std::vector<int>& side, const RobotState& sta
   return way / double(side.size());
 }
 
-// A car turns as its steering says, others by the difference of their sides.
+// A car turns as its steering says. It turns by the difference of its sides, as others do, where the middle of its
+// curve is between them, or no curve has its wheels at their angles (crab steering).
 double WheelOdometry::turn_of(double left, double right, const RobotState& state) const {
   const SideDrive& sides = model_->sides;
-  if (sides.steered.empty()) return 0.5 * (right - left) / (0.5 * sides.distance);
+  const double by_sides = 0.5 * (right - left) / (0.5 * sides.distance);
+  if (sides.steered.empty()) return by_sides;
   double curvature = 0;
   for (const SteeredWheel& wheel : sides.steered)
     curvature += curvature_of(wheel, sides.axle, wheel.sign * state.joints[std::size_t(wheel.joint)].position);
-  return curvature / double(sides.steered.size()) * (0.5 * (left + right));
+  curvature /= double(sides.steered.size());
+  const bool beside = std::abs(curvature) * 0.5 * sides.distance <= 1;  // false of what is not finite
+  return beside ? curvature * (0.5 * (left + right)) : by_sides;
 }
 
 // First-order propagation along an arc, whose heading is that of its middle.

@@ -52,11 +52,11 @@ void EventPixels::add_noise(std::int64_t from_ns, std::int64_t to_ns, std::vecto
   const double expected = spec_.background_hz * double(to_ns - from_ns) * 1e-9;
   if (!(expected > 0)) return;
   const NoiseField count(seed_, "events/count", images_), more(seed_, "events/noise", images_);
-  constexpr std::size_t kMost = 64;  // of one pixel between two images
+  constexpr std::size_t kBlock = 64;  // of one pixel's events, between those of its neighbours
   for (std::size_t i = 0; i < up_.size(); ++i) {
-    const std::size_t n = std::min(kMost, std::size_t(count.poisson(i, expected)));
+    const auto n = std::size_t(count.poisson(i, expected));
     for (std::size_t e = 0; e < n; ++e) {
-      const std::size_t place = (i * kMost + e) * 2;
+      const std::size_t place = ((e / kBlock * up_.size() + i) * kBlock + e % kBlock) * 2;
       const auto after = std::int64_t(more.uniform(place) * double(to_ns - from_ns));
       events.push_back({from_ns + 1 + after, std::uint16_t(i % std::size_t(width_)),
                         std::uint16_t(i / std::size_t(width_)), more.uniform(place + 1) < 0.5});

@@ -9,7 +9,7 @@ namespace rubble {
 namespace {
 
 constexpr double kMiddleGrey = 0.18;
-constexpr double kShortest = 1e-5;   // unit: s
+constexpr double kShortest = 1e-5;   // if the longest is not shorter; unit: s
 constexpr double kDarkest = 1e-4;    // a mean that is still told from none
 constexpr double kMostStops = 3;     // that one frame asks for
 
@@ -22,10 +22,12 @@ double saturation_share(const ExposureSettings& settings, double f_number) {
 ExposureControl::ExposureControl(const ExposureSpec& spec)
     : spec_(spec), exposure_(quick::log2(spec.time * spec.iso)) {}
 
+double ExposureControl::shortest_time() const { return std::min(kShortest, spec_.longest_time); }
+
 ExposureSettings ExposureControl::settings() const {
   if (spec_.mode != ExposureMode::automatic) return {spec_.time, spec_.iso};
   const double product = quick::exp2(exposure_);
-  const double time = std::clamp(product / spec_.iso, kShortest, spec_.longest_time);
+  const double time = std::clamp(product / spec_.iso, shortest_time(), spec_.longest_time);
   return {time, std::clamp(product / time, spec_.iso, std::max(spec_.iso, spec_.highest_iso))};
 }
 
@@ -34,7 +36,7 @@ double ExposureControl::goal() const {
 }
 
 double ExposureControl::clamp(double exposure) const {
-  return std::clamp(exposure, quick::log2(kShortest * spec_.iso),
+  return std::clamp(exposure, quick::log2(shortest_time() * spec_.iso),
                     quick::log2(spec_.longest_time * std::max(spec_.iso, spec_.highest_iso)));
 }
 

@@ -42,6 +42,7 @@ class ExposureControl {
 
  private:
   double goal() const;
+  double shortest_time() const;  // unit: s
   double clamp(double exposure) const;
 
   ExposureSpec spec_;

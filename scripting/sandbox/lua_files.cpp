@@ -97,7 +97,7 @@ const TextRow* named_by_comment(const TextTable& table) {
 // read_table(file) -> { names = {...}, rows = {{...}, ...}, lines = {...} }: the words of each line,
 // between commas, semicolons or blanks; `#` begins a comment. names: a first line that holds no number.
 int read_table_file(lua_State* lua) {
-  const std::string name = luaL_checkstring(lua, 1);
+  const std::string name = text_argument(lua, 1);
   const std::string& text = text_of(lua, "rubble.read_table", name);
   TextTable table = read_text_table(text);
   // The head of an accelerogram has numbers among its words, and no row of the table.
@@ -127,7 +127,7 @@ int read_table_file(lua_State* lua) {
 // read_image(file, side) -> { columns =, rows =, values = {...}, metric =, levels =, block =, cut_columns =, cut_rows =,
 // spacing =, east =, north =, degrees =, colour = }: grey levels from 0 to 1, or heights in m.
 int read_image_file(lua_State* lua) {
-  const std::string name = luaL_checkstring(lua, 1);
+  const std::string name = text_argument(lua, 1);
   const lua_Integer side = luaL_optinteger(lua, 2, kUsualSide);
   luaL_argcheck(lua, side >= 2 && side <= kLargestSide, 2, "2 to 900 points a side");
   std::string error;
@@ -174,7 +174,7 @@ void check_options(lua_State* lua, const char* function, const std::vector<std::
 
 // read_calibration(file) -> { format =, notes =, and the keys of sensors by their kinds }
 int read_calibration_file(lua_State* lua) {
-  const std::string name = luaL_checkstring(lua, 1);
+  const std::string name = text_argument(lua, 1);
   SensorCalibration read;
   Diagnostic mistake;
   try {
@@ -191,7 +191,7 @@ int read_calibration_file(lua_State* lua) {
 
 // read_accelerogram(file, { step =, unit = }) -> { values = {...} in m/s2, step =, peak =, format =, notes = }
 int read_accelerogram_file(lua_State* lua) {
-  const std::string name = luaL_checkstring(lua, 1);
+  const std::string name = text_argument(lua, 1);
   AccelerogramOptions options;
   check_options(lua, "rubble.read_accelerogram", {"step", "unit"});
   if (!lua_isnoneornil(lua, 2)) {
@@ -256,7 +256,7 @@ void push_pose(lua_State* lua, const RecordedTrajectory& track, std::size_t i, b
 // { t =, position =, rpy_deg = }, ... }, notes = {...} }: bodies have X forward and Z up; t from the first
 // pose, in s; of poses with one stamp the first.
 int read_trajectory_file(lua_State* lua) {
-  const std::string name = luaL_checkstring(lua, 1);
+  const std::string name = text_argument(lua, 1);
   check_options(lua, "rubble.read_trajectory", {"frame", "columns"});
   const std::string frame = option_at(lua, "frame"), columns = option_at(lua, "columns");
   const bool frame_is_known = frame.empty() || frame == "optical" || frame == "body" || frame == "as the format says";

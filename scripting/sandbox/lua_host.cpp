@@ -46,7 +46,7 @@ double limited_at(lua_State* lua, int index, double limit) {
 
 int make_stream(lua_State* lua) {
   static_assert(std::is_trivially_destructible_v<RandomStream>, "no __gc is needed");
-  const std::string name = luaL_checkstring(lua, 1);
+  const std::string name = text_argument(lua, 1);
   void* const memory = lua_newuserdatauv(lua, sizeof(RandomStream), 1);
   new (memory) RandomStream(host_of(lua).seed, "lua/" + name);
   luaL_setmetatable(lua, kStreamType);
@@ -76,6 +76,7 @@ int draw_uniform(lua_State* lua) {
   const double low = lua_isnoneornil(lua, 2) ? 0.0 : finite_at(lua, 2);
   const double high = lua_isnoneornil(lua, 3) ? 1.0 : finite_at(lua, 3);
   luaL_argcheck(lua, low <= high, 3, "the upper limit is below the lower one");
+  luaL_argcheck(lua, std::isfinite(high - low), 3, "the range is too wide");
   const double value = random.uniform(low, high);
   note_draw(lua, next_draw_name(lua), exact_text(value));
   lua_pushnumber(lua, value);
@@ -160,7 +161,7 @@ int keep_controller(lua_State* lua) {
 }
 
 int include_file(lua_State* lua) {
-  const std::string name = luaL_checkstring(lua, 1);
+  const std::string name = text_argument(lua, 1);
   LuaHost& host = host_of(lua);
   std::string error;
   const int chunk = host.open_include(name, error);
@@ -222,7 +223,7 @@ void apply_overrides(LuaHost& host, const std::string& prefix, const Schema& sch
 
 // parameter(name, {name, default, ...}) -> its value: the default, or what was given from outside.
 int read_parameter(lua_State* lua) {
-  const std::string name = luaL_checkstring(lua, 1);
+  const std::string name = text_argument(lua, 1);
   const auto is_word = [](char c) { return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   if (name.empty() || name.size() > 64 || !std::all_of(name.begin(), name.end(), is_word) || (name[0] >= '0' && name[0] <= '9'))
     return luaL_error(lua, "rubble.parameter: a name is a word of letters, digits and _, not \"%s\"", printable(name).c_str());
@@ -255,7 +256,7 @@ int read_parameter(lua_State* lua) {
 // options(function, given, description) -> every parameter, given or default. Mistakes are noted,
 // not raised: all of them come in one run.
 int read_options(lua_State* lua) {
-  const std::string function = luaL_checkstring(lua, 1);
+  const std::string function = text_argument(lua, 1);
   std::size_t values = 0;
   const Value given = read_lua_value(lua, 2, &values), description = read_lua_value(lua, 3, &values);
   count_work(lua, kInstructionsPerValue * values);
@@ -279,11 +280,11 @@ int read_options(lua_State* lua) {
 
 // reject(function, parameter, expected, found): a mistake that only the function itself can see.
 int reject_option(lua_State* lua) {
-  const std::string function = luaL_checkstring(lua, 1);
+  const std::string function = text_argument(lua, 1);
   Diagnostic d;
-  d.key = function + "." + luaL_checkstring(lua, 2);
+  d.key = function + "." + text_argument(lua, 2);
   d.message = lua_isnoneornil(lua, 4) ? "missing" : "out of range";
-  d.expected = luaL_checkstring(lua, 3);
+  d.expected = text_argument(lua, 3);
   d.found = describe(read_lua_value(lua, 4));
   note_mistakes(lua, function, {d});
   return 0;

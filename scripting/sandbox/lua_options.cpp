@@ -20,7 +20,26 @@ constexpr std::array<const char*, 7> kLimits{"min", "above", "max", "unit", "typ
 
 std::string text_of(const Value& entry, const char* name) {
   const Value* value = entry.find(name);
-  return value && value->kind == Value::Kind::text ? value->text : "";
+  return value ? value->text : "";
+}
+
+// What is said of a parameter must have the type that it is read as.
+void check_limits(const Value& entry, std::size_t number) {
+  const auto expect = [&](const char* name, const char* expected, const auto& fits) {
+    const Value* value = entry.find(name);
+    if (value && !fits(*value))
+      fail(number, "(`" + entry.items[0].text + "`): " + name + " is " + describe(*value) + ", expected " + expected);
+  };
+  const auto is_text = [](const Value& value) { return value.kind == Value::Kind::text; };
+  for (const char* name : {"min", "above", "max"}) expect(name, "a number", [](const Value& value) { return value.is_number(); });
+  for (const char* name : {"unit", "type", "doc"}) expect(name, "a string", is_text);
+  expect("choices", "a list of strings", [&](const Value& value) {
+    return value.kind == Value::Kind::table && value.fields.empty() && !value.items.empty() &&
+           std::all_of(value.items.begin(), value.items.end(), is_text);
+  });
+  const std::string type = text_of(entry, "type");
+  if (entry.find("choices") && !type.empty() && type != "choice")
+    fail(number, "(`" + entry.items[0].text + "`) has choices and the type " + type + ": leave the type out");
 }
 
 std::string type_of(const Value& entry, const Value& fallback) {
@@ -89,6 +108,7 @@ void OptionTable::add(const Value& entry, std::size_t number) {
   for (const auto& field : entry.fields)
     if (std::find(kLimits.begin(), kLimits.end(), field.first) == kLimits.end())
       fail(number, "(`" + path + "`) has the unknown key `" + field.first + "`: expected min, above, max, unit, type, choices or doc");
+  check_limits(entry, number);
   const std::size_t dot = path.find('.');
   if (dot != std::string::npos && !schema_.find(path.substr(0, dot)))
     schema_.group(path.substr(0, dot), "");

@@ -52,6 +52,7 @@ class Reader {
     if (bytes_ > kMostText) return other("strings of more than 16 MiB in all");
     if (find_invalid_utf8(text) != std::string_view::npos)
       return other("a string that is not UTF-8");
+    if (text.find('\0') != std::string_view::npos) return other("a string with a zero byte");
     return Value::make_text(std::string(text));
   }
 
@@ -61,11 +62,12 @@ class Reader {
     return {text, size};
   }
 
-  // Of a field: made to be shown, for what is not UTF-8 or beyond all bounds is no key of ours.
+  // Of a field: made to be shown, for what is not UTF-8, has a zero byte or is beyond all bounds is no key of ours.
   std::string read_name(int index) {
     const std::string_view text = text_at(index);
     bytes_ += text.size();
-    const bool whole = bytes_ <= kMostText && find_invalid_utf8(text) == std::string_view::npos;
+    const bool whole = bytes_ <= kMostText && find_invalid_utf8(text) == std::string_view::npos &&
+                       text.find('\0') == std::string_view::npos;
     return whole ? std::string(text) : printable(text.substr(0, 64));
   }
 
@@ -109,6 +111,13 @@ Value read_lua_value(lua_State* lua, int index, std::size_t* count) {
   Value value = reader.read(index, 0);
   if (count) *count += reader.cost();
   return value;
+}
+
+std::string text_argument(lua_State* lua, int index) {
+  std::size_t size = 0;
+  const char* const text = luaL_checklstring(lua, index, &size);
+  luaL_argcheck(lua, std::string_view(text, size).find('\0') == std::string_view::npos, index, "a string without a zero byte expected");
+  return {text, size};
 }
 
 void push_lua_value(lua_State* lua, const Value& value) {

@@ -41,7 +41,10 @@ bool fisheye_grows(const CameraScenario& camera) {
   return true;
 }
 
-void check_camera(const MountedCamera& camera, std::vector<Diagnostic>& mistakes) {
+constexpr double kMostNoiseEvents = 1e8;  // of an event camera from one frame to the next: 1.6 GB
+
+// trajectory_hz: of a camera without a rate of its own.
+void check_camera(const MountedCamera& camera, double trajectory_hz, std::vector<Diagnostic>& mistakes) {
   const std::string at = camera.key() + ".", beside = camera.named ? at : "";  // of what is in its place
   const CameraScenario& c = camera.camera;
   check_channels(c, at, mistakes);
@@ -66,6 +69,13 @@ void check_camera(const MountedCamera& camera, std::vector<Diagnostic>& mistakes
   if (c.shutter.motion_blur && c.exposure.mode == ExposureMode::ideal)
     add(at + "shutter.motion_blur", "an ideal image has no exposure time",
         at + "exposure.mode of \"fixed\" or \"automatic\"", "");
+  if (c.exposure.mode == ExposureMode::automatic && c.exposure.highest_iso < c.exposure.iso)
+    add(at + "exposure.highest_iso", "below the lowest ISO speed", "at least " + at + "exposure.iso", "");
+  const EventCameraSpec& events = camera.event_camera;
+  const double noise_in_frame = events.background_hz / camera.rate_hz.value_or(trajectory_hz) * c.width * c.height;
+  if (events.on && noise_in_frame > kMostNoiseEvents)
+    add(beside + "event_camera.background_hz", "more noise events from one frame to the next than memory holds",
+        "at most 1e8 in all pixels", "or more frames per second, or fewer pixels");
   check_optics(c, at, mistakes);
   if (camera.depth_sensor.min_range >= camera.depth_sensor.max_range)
     add(beside + "depth_sensor.max_range", "the range is empty",
@@ -236,7 +246,7 @@ void check_all_names(const Scenario& scenario, SensorNames& names, std::vector<D
 void check_cameras(const Scenario& scenario, std::vector<Diagnostic>& mistakes) {
   for (const MountedCamera& camera : scenario.cameras) {
     check_name(camera.name, camera.key(), "a camera", mistakes);
-    check_camera(camera, mistakes);
+    check_camera(camera, scenario.trajectory.rate_hz, mistakes);
   }
 }
 

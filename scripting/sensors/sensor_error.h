@@ -1,6 +1,7 @@
 // Errors of a reading: white noise, a bias that stays, one that walks, one that drifts and comes back.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -25,7 +26,7 @@ class SensorError {
   // No seed: no error.
   SensorError(const ErrorFigures& figures, std::optional<std::uint64_t> seed, std::string_view name, double rate_hz)
       : figures_(figures), on_(seed.has_value()), random_(seed.value_or(0), name), rate_hz_(rate_hz),
-        kept_(portable::exp(-1 / (figures.drift_time * rate_hz))) {
+        kept_(portable::exp(-std::min(1 / (figures.drift_time * rate_hz), 700.0))) {
     if (!on_) return;
     bias_ = figures.bias * random_.normal();
     drift_ = figures.drift * random_.normal();

@@ -166,6 +166,39 @@ TEST(Odometry, ScattersAsItsCovarianceSays) {
   EXPECT_EQ(reading.covariance[1][2], reading.covariance[2][1]);
 }
 
+// Four wheels that are steered and driven: on the spot each goes along its own circle, and sideways (crab steering) none
+// has a curve. angles: by wheel; ways: by wheel, along itself; unit: rad, m. Wheels: rear left, rear right, front left,
+// front right.
+OdometryReading steer(const std::array<double, 4>& angles, const std::array<double, 4>& ways) {
+  RobotModel model = make_rover();
+  SideDrive& sides = model.sides;
+  sides.axle = 0, sides.distance = 0.6;
+  sides.left = {0, 2}, sides.right = {1, 3};
+  const auto wheels = int(model.joints.size());
+  for (int i = 0; i < 4; ++i) sides.steered.push_back({wheels + i, 1, i < 2 ? -0.4 : 0.4, i % 2 == 0 ? 0.3 : -0.3, i});
+  WheelOdometry odometry(model);
+  RobotState state;
+  state.links.resize(model.links.size());
+  state.joints.resize(model.joints.size() + 4);
+  for (std::size_t i = 0; i < 4; ++i) state.joints[std::size_t(wheels) + i].position = angles[i];
+  odometry.update(state, 0);
+  for (std::size_t i = 0; i < 4; ++i) state.joints[i].position = ways[i] / sides.radius;
+  return odometry.update(state, 1);
+}
+
+TEST(Odometry, OfWheelsThatTurnOnTheSpotOrGoSideways) {
+  const double a = std::atan2(0.4, 0.3), way = 0.5 * 0.2;  // by 0.2 rad on circles of 0.5 m
+  const OdometryReading spot = steer({a, -a, -a, a}, {-way, way, -way, way});
+  EXPECT_NEAR(spot.yaw, 0.2, 1e-12);
+  EXPECT_NEAR(spot.x, 0, 1e-12);
+  EXPECT_NEAR(spot.y, 0, 1e-12);
+  for (const double angle : {0.3, 1.2, 1.5, -1.2, 2.0, 3.1}) {
+    const OdometryReading crab = steer({angle, angle, angle, angle}, {1, 1, 1, 1});
+    EXPECT_NEAR(crab.yaw, 0, 1e-12) << angle;
+    EXPECT_NEAR(crab.x, std::cos(angle), 1e-12) << angle;
+  }
+}
+
 TEST(Odometry, WithoutAnErrorItStillClaimsNoCertainty) {
   const RobotModel model = make_rover();
   WheelOdometry odometry(model);

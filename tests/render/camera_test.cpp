@@ -383,6 +383,17 @@ TEST(AutoExposure, RaisesTimeFirstThenSpeedAndEndsThere) {
   EXPECT_EQ(control.settings().iso, 100);
 }
 
+TEST(AutoExposure, KeepsALongestTimeThatIsShort) {
+  ExposureSpec spec;
+  spec.mode = ExposureMode::automatic;
+  spec.time_constant = 0, spec.delay = 0, spec.longest_time = 2e-6;
+  ExposureControl control(spec);
+  for (const double mean : {1.0, 0.0, 1.0}) {
+    for (int i = 0; i < 9; ++i) control.follow(mean, 0.1);
+    EXPECT_LE(control.settings().time, 2e-6);
+  }
+}
+
 // A camera that turns from a dark wall to the sky: the first frames after the turn are too bright.
 TEST(AutoExposure, LeavesFramesOverexposedAfterASuddenChange) {
   Scene scene = lit_wall();

@@ -91,6 +91,11 @@ TEST(EventPixels, HaveNoiseAtTheStatedRateAndThresholdsOfTheStatedSpread) {
   EXPECT_NEAR(double(up) / double(events.size()), 0.5, 0.02);
   EXPECT_TRUE(std::is_sorted(events.begin(), events.end(),
                              [](const Event& a, const Event& b) { return a.stamp_ns < b.stamp_ns; }));
+  spec.background_hz = 300;  // many between two images
+  EventPixels hot(spec, 20, 20, 9);
+  events.clear();
+  for (int i = 0; i < 2; ++i) hot.see(i * 1'000'000'000LL, std::vector<float>(400, 1), events);
+  EXPECT_NEAR(double(events.size()), 300 * 400, 1500);
   spec.background_hz = 0, spec.threshold_noise = 0.03;
   EventPixels uneven(spec, 100, 100, 9);
   events.clear();

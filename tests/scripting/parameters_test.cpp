@@ -89,5 +89,21 @@ TEST(Parameters, OfFunctionsOfOnesOwn) {
   EXPECT_EQ(load_text(script, with_overrides({"wall.layers=5"})).scenario.pile.layers, 5);
 }
 
+TEST(Parameters, AreDescribedByTheRightTypes) {
+  const auto error = [](const std::string& limits) {
+    return mission_error("rubble.parameter('x', 2, { " + limits + " }) return {}");
+  };
+  EXPECT_EQ(error("min = 1, max = 3, unit = 'm', doc = 'width'"), "");
+  for (const char* limits : {"min = '5'", "max = {}", "above = true", "unit = 5", "doc = {}", "type = 5"})
+    EXPECT_NE(error(limits).find("expected a "), std::string::npos) << limits << ": " << error(limits);
+  const auto choices = [](const std::string& text) {
+    return mission_error("rubble.parameter('x', 'a', { choices = " + text + " }) return {}");
+  };
+  EXPECT_EQ(choices("{ 'a', 'b' }"), "");
+  for (const char* text : {"'a'", "{}", "{ 'a', 1 }", "{ a = 'a' }"})
+    EXPECT_NE(choices(text).find("expected a list of strings"), std::string::npos) << text << ": " << choices(text);
+  EXPECT_NE(choices("{ 'a' }, type = 'number'").find("leave the type out"), std::string::npos);
+}
+
 }  // namespace parameters_test
 }  // namespace rubble

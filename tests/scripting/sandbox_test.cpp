@@ -148,6 +148,15 @@ TEST(Sandbox, StringsThatAreNotUtf8) {
             std::string::npos);
 }
 
+// What C calls the end of a string: two names would become one.
+TEST(Sandbox, StringsWithZeroBytes) {
+  EXPECT_NE(mission_error("rubble.random('a\\0b') return {}").find("without a zero byte"), std::string::npos);
+  EXPECT_NE(mission_error("rubble.include('a\\0b') return {}").find("without a zero byte"), std::string::npos);
+  EXPECT_EQ(run("return { 'x\\0y' }").items[0].text, "a string with a zero byte");
+  EXPECT_NE(mission_error("return { ['se\\0ed'] = 5 }"), "");
+  EXPECT_NE(mission_error("rubble.random('a'):uniform(-1e308, 1e308) return {}").find("too wide"), std::string::npos);
+}
+
 // As other programs that run Lua files.
 TEST(Sandbox, SkipsAByteOrderMarkAndAFirstLineForTheShell) {
   EXPECT_EQ(run("\xef\xbb\xbfreturn 7").integer, 7);

@@ -176,6 +176,18 @@ TEST(Sensors, AnAttitudeDriftsAsAGaussMarkovProcess) {
   EXPECT_NEAR(std::sqrt(tilt2 / kSeeds) / kDegree, 0.5, 0.03);
 }
 
+// A drift that is over before the next reading is white noise.
+TEST(Sensors, ADriftMayBeFasterThanTheReadings) {
+  for (const double drift_time : {1e-9, 5e-4, 1e-3}) {
+    ErrorFigures figures;
+    figures.drift = 2, figures.drift_time = drift_time;
+    SensorError error(figures, 3, "x", 1);
+    double sum = 0;
+    for (int i = 0; i < 4000; ++i) sum += std::pow(error.next(), 2) / 4000;
+    EXPECT_NEAR(std::sqrt(sum), 2, 0.1) << drift_time;
+  }
+}
+
 TEST(Sensors, ABiasWalksWithTheRootOfTime) {
   ErrorFigures figures;
   figures.walk = 0.1;

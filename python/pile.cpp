@@ -8,6 +8,7 @@
 #include "app/assets/asset_library.h"
 #include "app/mission/finished_run.h"
 #include "app/pipeline/stages.h"
+#include "app/surroundings/pile_surroundings.h"
 #include "app/scene/build_scene.h"
 #include "app/support/print.h"
 #include "kernel/base/number_text.h"
@@ -57,13 +58,27 @@ Pile settle(const nb::object& mission, const nb::object& seed, const nb::object&
   return {settled, context.threads()};
 }
 
+// Without the files of its robots a pile is whole, but none of them can be driven. Throws InputError where they changed.
+void recall_robots_if_there(const Provenance& provenance, const std::vector<std::string>& folders, AssetLibrary& library) {
+  AssetLibrary tried;
+  try {
+    add_robot_files(stated_scenario(provenance).robots, folders, tried);
+  } catch (const InputError& error) {
+    print_warnings({std::string(error.what()) + "; its robots cannot be driven"});
+    return;
+  }
+  recall_robots(provenance, folders, library);
+}
+
 Pile open_pile(const nb::object& folder, const nb::object& threads, const nb::object& assets) {
   RunContext context(quiet(to_threads(threads)));
-  const std::vector<std::string> packs = to_folders(assets, "assets");
+  std::vector<std::string> packs = to_folders(assets, "assets");
   const FinishedRun saved = open_finished_run(to_path(folder, "folder"));
   auto settled = std::make_shared<SettledMission>();
+  packs.insert(packs.end(), saved.manifest.pack_folders.begin(), saved.manifest.pack_folders.end());
   settled->mission = resolve_pile(saved.manifest.provenance, packs, context);
   settled->state = load_pile_of(saved, settled->mission.assets);
+  recall_robots_if_there(saved.manifest.provenance, packs, settled->mission.assets);
   return {settled, context.threads()};
 }
 
@@ -97,8 +112,11 @@ Pile vary(const Pile& pile, const nb::object& given) {
   print_warnings(find_suspicious(mission));
   auto varied = std::make_shared<SettledMission>(*pile.settled);
   varied->mission.scenario = changed;
+  // Lamps burn and puddles lie by the light and the weather.
+  const bool other_surroundings = changed.surroundings.on() && (is_dark(changed) != is_dark(base.scenario) || changed.wetness != base.scenario.wetness);
+  if (other_surroundings) lay_surroundings(changed, base.assets, varied->state);
   varied->mission.provenance.overrides.insert(varied->mission.provenance.overrides.end(), overrides.begin(), overrides.end());
-  return {varied, pile.threads, pile.made};
+  return {varied, pile.threads, other_surroundings ? nullptr : pile.made};
 }
 
 Array<double> poses_of(const Pile& pile) {

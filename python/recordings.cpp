@@ -18,6 +18,12 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+template <typename Take>
+void read_whole(const std::string& path, const Take& take) {
+  const auto fault = ends_with(path, ".mcap") ? read_mcap(path, take) : read_bag(path, take);
+  if (fault) throw InputError({path, 0, "", "the file is damaged", "a whole recording", fault->what, "rubble info says more"});
+}
+
 // Each message's bytes as an array of their own, by topic; topics: empty: of all.
 std::map<std::string, std::vector<nb::bytes>> read_messages(const nb::object& given, const std::set<std::string>& topics) {
   const std::string path = to_path(given, "path");
@@ -27,8 +33,7 @@ std::map<std::string, std::vector<nb::bytes>> read_messages(const nb::object& gi
     if (topics.empty() || topics.count(topic)) messages[topic].emplace_back(m.bytes.data(), m.bytes.size());
     return true;
   };
-  const auto fault = ends_with(path, ".mcap") ? read_mcap(path, take) : read_bag(path, take);
-  if (fault) throw InputError({path, 0, "", "the file is damaged", "a whole recording", fault->what, "rubble info says more"});
+  read_whole(path, take);
   return messages;
 }
 
@@ -41,7 +46,7 @@ std::map<std::string, std::pair<std::string, std::int64_t>> list_topics(const nb
     type = m.type, ++count;
     return true;
   };
-  ends_with(path, ".mcap") ? read_mcap(path, take) : read_bag(path, take);
+  read_whole(path, take);
   return topics;
 }
 

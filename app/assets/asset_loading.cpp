@@ -11,6 +11,7 @@
 #include "app/assets/convex_parts.h"
 #include "app/assets/placed_box.h"
 #include "app/assets/terrain.h"
+#include "io/mesh/mesh_content.h"
 #include "io/mesh/mesh_file.h"
 #include "io/robot/urdf_reader.h"
 #include "kernel/base/hash.h"
@@ -123,7 +124,7 @@ std::string hash_content(const Asset& asset, const LoadedAsset& loaded) {
   std::vector<std::string> files = asset.meshes;
   if (!asset.parts.empty()) files.push_back(asset.parts);
   for (const std::string& file : files) {
-    const std::string content = sha256_of_file(file);
+    const std::string content = sha256_of_mesh(file, MeshContent::geometry);
     hash.add(content.data(), content.size());
   }
   const double up = asset.up == UpAxis::y ? 1 : 0, cut = !asset.decompose ? 0 : loaded.exact_parts ? kExactDecomposeVersion : kDecomposeVersion;
@@ -266,18 +267,34 @@ std::string find_named_file(const std::string& name, const std::vector<std::stri
                                    : "looked for " + looked});
 }
 
-std::string hash_urdf(const std::string& path) {
-  Sha256 hash;
-  const auto add = [&hash](const std::string& file) {
-    const std::string sum = sha256_of_file(file);
-    hash.add(sum.data(), sum.size());
-  };
-  add(path);
-  for (const UrdfLink& link : read_urdf(path).links)
+// What the tool made of a xacro file, without what depends on where the files are: comments, and the folders of meshes.
+std::string without_places(const std::string& text) {
+  std::string kept;
+  const std::string_view open = "<!--", close = "-->", name = "filename=";
+  for (std::size_t at = 0; at < text.size();) {
+    if (text.compare(at, open.size(), open) == 0) {
+      const std::size_t end = text.find(close, at);
+      at = end == std::string::npos ? text.size() : end + close.size();
+    } else if (text.compare(at, name.size(), name) == 0 && at + name.size() < text.size()) {
+      const std::size_t from = at + name.size() + 1, end = std::min(text.find(text[from - 1], from), text.size());
+      kept += name;
+      kept += std::filesystem::path(text.substr(from, end - from)).filename().string();
+      at = end;
+    } else {
+      kept += text[at++];
+    }
+  }
+  return kept;
+}
+
+std::string hash_urdf(const std::string& path, const std::vector<std::pair<std::string, std::string>>& arguments) {
+  const UrdfFile robot = read_urdf(path, arguments);
+  std::string sums = robot.expanded.empty() ? sha256_of_file(path) : sha256(without_places(robot.expanded));
+  for (const UrdfLink& link : robot.links)
     for (const auto* list : {&link.collisions, &link.visuals})
       for (const UrdfGeometry& geometry : *list)
-        if (!geometry.file.empty()) add(geometry.file);
-  return hash.hex();
+        if (!geometry.file.empty()) sums += sha256_of_mesh(geometry.file, MeshContent::all);
+  return sha256(sums);
 }
 
 }  // namespace
@@ -297,7 +314,7 @@ void add_robot_files(const std::vector<RobotItem>& robots, const std::vector<std
     if (robot.urdf.empty()) continue;
     const std::string path = find_named_file(robot.urdf, folders, "robots[" + std::to_string(i + 1) + "].urdf", "a URDF file");
     library.robot_files.back() = path;
-    library.robots.push_back({robot.urdf, hash_urdf(path)});
+    library.robots.push_back({robot.urdf, hash_urdf(path, robot.urdf_arguments)});
     library.folders.push_back(std::filesystem::path(path).parent_path().string());
   }
 }

@@ -10,6 +10,7 @@
 #include "app/batch/seed_list.h"
 #include "app/estimate/disk_estimate.h"
 #include "app/estimate/preview.h"
+#include "app/mission/resolved_mission.h"
 #include "app/provenance/folder_lock.h"
 #include "app/provenance/provenance.h"
 #include "app/support/build_info.h"
@@ -93,9 +94,8 @@ class Batch {
   // What every seed has in common is read once, so that a mistake is not found a thousand times; of
   // what varies, every value once.
   void check_mission() {
-    MissionOptions options;
+    MissionOptions options = mission_options(request_.of);
     options.seed = all_.front();
-    options.overrides = request_.of.overrides;
     std::set<std::string> seen;
     for (std::size_t variant = 0; variant < sweep_.variants.size(); ++variant) {
       const std::vector<std::string> values = sweep_.overrides(variant);
@@ -146,6 +146,7 @@ class Batch {
         make_provenance(request_.pile_only ? RunKind::settle : RunKind::run, mission, options);
     provenance_.assets = assets.contents;
     provenance_.robots = assets.robots;
+    provenance_.snapshot = assets.snapshot;
     provenance_.seed.reset();
   }
 

@@ -9,12 +9,12 @@
 #include "app/batch/seed_list.h"
 #include "app/measures/metrics.h"
 #include "app/provenance/compare.h"
+#include "app/provenance/differing_pixel.h"
 #include "app/provenance/manifest.h"
 #include "app/support/job_pool.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
-#include "io/playback/recorded_picture.h"
 #include "io/state/pile_state_file.h"
 #include "kernel/base/number_text.h"
 #include "kernel/base/system/file_sandbox.h"
@@ -189,15 +189,7 @@ class Suite {
     if (!piece.empty()) c.result.failures.push_back("against " + earlier + ": " + piece);
     const FrameDifference apart = find_difference(was.frames, manifest.frames);
     if (apart.why.empty()) return;
-    std::string text = "against " + earlier + ": " + apart.why;
-    if (!apart.channel.empty() && is_picture(apart.channel)) {
-      const PictureWanted wanted{apart.channel, apart.frame, false};
-      const auto before = find_recorded_picture(earlier, wanted);
-      const auto now = find_recorded_picture(c.folder, wanted);
-      if (before && now && before->file == now->file)
-        text += "; " + describe_difference(*before, *now) + ", by " + now->file;
-    }
-    c.result.failures.push_back(text);
+    c.result.failures.push_back("against " + earlier + ": " + apart.why + describe_pixel(apart, was.frames, earlier, c.folder));
   }
 
   static void judge_metric(const std::string& name, const NumberPair& limits,

@@ -40,6 +40,7 @@ ExitCode check_standard_output(ExitCode code) {
 
 int run_program(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is then an error of write(), like a full disk
+  std::signal(SIGCHLD, SIG_DFL);  // a parent that ignores it hands that on, and children leave no exit status
   reserve_standard_files();
   keep_freed_memory();
   try {

@@ -1,6 +1,9 @@
 // `rubble convert`: a recorded dataset in further formats, written by the recorders of `rubble run`.
 #include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <sstream>
+#include <string_view>
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
@@ -88,22 +91,79 @@ void check_count(const FinishedRun& saved, int expected, int found) {
                     std::to_string(found), "`rubble info " + saved.folder + "` finds damaged files"});
 }
 
-// What an earlier conversion left is ours to replace.
-void prepare_conversion(const std::string& out, bool force) {
+// Files that conversions into this folder left, a name in a line.
+constexpr const char* kConverted = "converted.txt";
+
+bool belongs_to(std::string_view file, const RecordingFormat& format) {
+  if (file.rfind(kCamerasFolder + std::string("/"), 0) == 0) {
+    const std::size_t slash = file.find('/', std::string_view(kCamerasFolder).size() + 1);
+    file = slash == std::string_view::npos ? std::string_view() : file.substr(slash + 1);
+  }
+  return file == format.leaves || (!format.beside.empty() && file == format.beside) || file.rfind(format.leaves + "/", 0) == 0;
+}
+
+bool belongs_to_any(const std::string& file, const std::vector<std::string>& formats) {
+  return std::any_of(formats.begin(), formats.end(),
+                     [&](const std::string& name) { return belongs_to(file, find_recording_format(name)); });
+}
+
+std::vector<std::string> list_converted(const std::string& out) {
   std::vector<std::string> files;
-  for (const RecordingFormat& format : recording_formats()) {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(out + "/" + kConverted, failed))) return files;
+  std::istringstream lines(read_whole_file(out + "/" + kConverted));
+  for (std::string line; std::getline(lines, line);) files.push_back(line);
+  return files;
+}
+
+// Everything below the folder that has a name of these formats.
+std::vector<std::string> list_named(const std::string& out, const std::vector<std::string>& formats) {
+  std::vector<std::string> files;
+  std::vector<std::string> folders{kCamerasFolder};
+  std::error_code failed;
+  for (const std::string& name : formats) {
+    const RecordingFormat& format = find_recording_format(name);
+    if (format.is_folder)
+      folders.push_back(format.leaves);
+    else if (std::filesystem::exists(out + "/" + format.leaves, failed))
+      files.push_back(format.leaves);
+    if (!format.beside.empty() && std::filesystem::exists(out + "/" + format.beside, failed)) files.push_back(format.beside);
+  }
+  for (const std::string& folder : folders)
+    for (std::string& file : list_plain_files(out, folder))
+      if (belongs_to_any(file, formats)) files.push_back(std::move(file));
+  return files;
+}
+
+// What an earlier conversion to these formats left is ours to replace; a file of somebody else among it is an error.
+void prepare_conversion(const std::string& out, const std::vector<std::string>& formats, bool force) {
+  std::vector<std::string> files;
+  for (const std::string& name : formats) {
+    const RecordingFormat& format = find_recording_format(name);
     if (!format.is_folder) files.push_back(format.leaves);
     if (!format.beside.empty()) files.push_back(format.beside);
-    if (!force || !format.is_folder) continue;
-    const std::vector<std::string> inside = list_plain_files(out, format.leaves);
-    files.insert(files.end(), inside.begin(), inside.end());
   }
-  if (force) {
-    const std::vector<std::string> inside = list_plain_files(out, kCamerasFolder);
-    files.insert(files.end(), inside.begin(), inside.end());
-  }
+  if (force)
+    for (const std::string& file : list_converted(out))
+      if (belongs_to_any(file, formats)) files.push_back(file);
+  for (const std::string& file : force ? list_named(out, formats) : std::vector<std::string>())
+    if (std::find(files.begin(), files.end(), file) == files.end())
+      throw InputError({out + "/" + file, 0, "", "is where the conversion writes, and no conversion left it", "", "",
+                        "move it elsewhere, or choose another folder by --out"});
   prepare_output_folder(out, force, files);
   remove_empty_parents(out, files);
+}
+
+void note_converted(const std::string& out, const std::vector<std::string>& formats) {
+  std::vector<std::string> files = list_named(out, formats);
+  std::error_code failed;
+  for (const std::string& file : list_converted(out))
+    if (std::filesystem::is_regular_file(std::filesystem::symlink_status(out + "/" + file, failed))) files.push_back(file);
+  std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  std::string text;
+  for (const std::string& file : files) text += file + "\n";
+  write_text_file(out + "/" + kConverted, text);
 }
 
 ExitCode convert(const FolderRequest& request, const ConvertRequest& to) {
@@ -119,7 +179,7 @@ ExitCode convert(const FolderRequest& request, const ConvertRequest& to) {
   DatasetPlayer player({saved.folder, recording, intrinsics}, samples_for(to.formats, scenario, saved));
   const std::string out = output_folder_of(to.out, request.folder, "convert");
   refuse_run_folder(out, request.folder, "convert");
-  prepare_conversion(out, to.force);
+  prepare_conversion(out, to.formats, to.force);
   const std::vector<int> frames = count_recorded(saved, recording, scenario);
   const std::string title = recording_title(saved.manifest.provenance.script.path, scenario.seed, pile);
   RecorderSet set = make_recorders({scenario, recording, frames, title}, out);
@@ -137,6 +197,7 @@ ExitCode convert(const FolderRequest& request, const ConvertRequest& to) {
   });
   check_count(saved, expected, found);
   queue.finish();
+  note_converted(out, to.formats);
   context.progress.finish(std::to_string(found) + " frames");
   for (const std::string& note : player.notes()) print_err("%s\n", note.c_str());
   for (const std::string& name : set.names) print_out("%s/%s\n", out.c_str(), name.c_str());

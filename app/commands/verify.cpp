@@ -14,11 +14,11 @@
 #include "app/command_line/common_options.h"
 #include "app/pipeline/run.h"
 #include "app/provenance/compare.h"
+#include "app/provenance/differing_pixel.h"
 #include "app/provenance/manifest.h"
 #include "app/support/print.h"
 #include "app/support/stop.h"
 #include "io/base/atomic_file.h"
-#include "io/playback/recorded_picture.h"
 #include "io/playback/recording_check.h"
 #include "io/state/pile_state_file.h"
 #include "kernel/base/hash.h"
@@ -194,48 +194,12 @@ class Verifier {
     const FrameDifference apart = find_difference(was_.frames, frames.hashes.compact());
     add("frames", apart.why.empty(),
         apart.why.empty() ? std::to_string(was_.frames.frames.size()) + " frames"
-                          : apart.why + find_pixel(apart, folder));
+                          : apart.why + describe_pixel(apart, was_.frames, request_.of.folder, folder.path(), altered_));
     for (const auto& [name, value] : frames.environment) {
       const auto before = was_.environment.find(name);
       if (name != "threads" && before != was_.environment.end() && before->second != value)
         result_.notes.push_back(name + " " + value + " instead of " + before->second);
     }
-  }
-
-  // Which of the camera's own frames the row is.
-  int number_of_camera(const std::string& camera, int row) const {
-    const auto& channels = was_.frames.channels;
-    const auto at = std::find(channels.begin(), channels.end(), camera + "/pose");
-    const auto pose = std::size_t(at - channels.begin());
-    int number = 0;
-    for (int i = 0; i < row && pose < channels.size(); ++i)
-      number += was_.frames.frames[std::size_t(i)][pose] != 0;
-    return number;
-  }
-
-  // Where in the picture: the manifest holds hashes of frames alone, the recordings the frames.
-  std::string find_pixel(const FrameDifference& apart, const RunFolder& folder) const {
-    if (apart.channel.empty() || !is_picture(apart.channel)) return "";
-    const auto& channels = was_.frames.channels;
-    PictureWanted wanted{apart.channel, apart.frame, false, ""};
-    const std::size_t slash = apart.channel.find('/');
-    if (slash != std::string::npos) {  // of several cameras
-      wanted.camera = apart.channel.substr(0, slash);
-      wanted.channel = apart.channel.substr(slash + 1);
-      wanted.frame = number_of_camera(wanted.camera, apart.frame);
-    }
-    const std::string measured = apart.channel.substr(0, slash + 1) + "measured_depth";
-    wanted.measured_depth = std::find(channels.begin(), channels.end(), measured) != channels.end();
-    const auto was = find_recorded_picture(request_.of.folder, wanted, altered_);
-    const auto is = find_recorded_picture(folder.path(), wanted, altered_);
-    if (!was || !is || was->file != is->file)
-      return "; no recording holds its pixels without losses, so which of them stays open";
-    const std::string pixel = describe_difference(*was, *is);
-    if (!pixel.empty()) return "; " + pixel + ", by " + was->file;
-    return was->step > 0
-               ? "; " + was->file + " rounds depth to " + exact_text(was->step) +
-                     " m and shows no difference"
-               : "; yet " + was->file + " holds the same pixels: the manifest was altered";
   }
 
   void check_metrics(const Metrics& found) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <set>
+#include <string_view>
 
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
@@ -39,14 +40,34 @@ std::string surface_name(double radius, std::size_t rank) {
   return "void_r" + millimetres(radius) + "_" + std::to_string(rank) + ".ply";
 }
 
-// Every name that this command may write, so that an earlier map can be replaced and nothing else.
-std::vector<std::string> list_outputs(const VoidRequest& request) {
-  std::vector<std::string> names{"voids.json", "voids.vdb", "voids.bt"};
-  for (const double radius : request.space.radii) {
-    for (const char* kind : {"plan_r", "cut_x_r", "cut_y_r"})
-      names.push_back(kind + millimetres(radius) + ".png");
-    for (int i = 1; i <= request.surfaces; ++i)
-      names.push_back(surface_name(radius, std::size_t(i)));
+bool is_number(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+// Whether this command writes files of this name, with whatever options.
+bool is_name_of_map(const std::string& name) {
+  for (const char* whole : {"voids.json", "voids.vdb", "voids.bt"})
+    if (name == whole) return true;
+  const auto between = [&name](std::string_view head, std::string_view tail) {
+    const bool fits = name.size() > head.size() + tail.size() && name.compare(0, head.size(), head) == 0 &&
+                      name.compare(name.size() - tail.size(), tail.size(), tail) == 0;
+    return fits ? name.substr(head.size(), name.size() - head.size() - tail.size()) : std::string();
+  };
+  for (const char* picture : {"plan_r", "cut_x_r", "cut_y_r"})
+    if (is_number(between(picture, ".png"))) return true;
+  const std::string surface = between("void_r", ".ply");
+  const std::size_t dash = surface.find('_');
+  return dash != std::string::npos && is_number(surface.substr(0, dash)) && is_number(surface.substr(dash + 1));
+}
+
+// What an earlier map left, which is replaced whole: files of two maps together would describe neither.
+std::vector<std::string> list_earlier_map(const std::string& out) {
+  std::vector<std::string> names;
+  std::error_code failed;
+  for (std::filesystem::directory_iterator at(out, failed), end; !failed && at != end; at.increment(failed)) {
+    std::string name = at->path().filename().string();
+    if (at->path().extension() == ".part") name = at->path().stem().string();
+    if (is_name_of_map(name)) names.push_back(name);
   }
   return names;
 }
@@ -168,7 +189,7 @@ ExitCode map_voids(const FolderRequest& request, const VoidRequest& voids) {
 
   progress.start("files");
   const std::string folder = output_folder_of(voids.out, request.folder, "voids");
-  prepare_output_folder(folder, voids.force, list_outputs(voids));
+  prepare_output_folder(folder, voids.force, list_earlier_map(folder));
   const std::string title = std::filesystem::path(request.folder).filename().string();
   const auto run = [&](const Jobs& jobs) {
     parallel_for(jobs.size(), ThreadPool(request.options.threads).threads(), [&](std::size_t i) { jobs[i](); });

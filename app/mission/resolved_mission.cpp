@@ -55,7 +55,8 @@ void load_with_progress(ResolvedMission& mission, RunContext& context, const Loa
 Json describe_program() {
   const BuildInfo build = build_info();
   return {{"version", build.version}, {"commit", build.commit}, {"compiler", build.compiler},
-          {"flags", build.flags},     {"target", build.target}, {"libraries", build.libraries}};
+          {"flags", build.flags},     {"target", build.target}, {"libraries", build.libraries},
+          {"simbody_bits", build.simbody_bits}};
 }
 
 // The same program, or the rest might not fit what is there.

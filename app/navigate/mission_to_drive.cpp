@@ -57,11 +57,11 @@ std::vector<Vec3> waypoints_from_start(const NavigationWorld& world) {
   return waypoints;
 }
 
-void write_mission_to_drive(const std::string& folder, std::uint64_t seed, const NavigationWorld& world) {
+void write_mission_to_drive(const std::string& folder, std::uint64_t seed, const NavigationWorld& world, bool packs) {
   const std::vector<Vec3> waypoints = waypoints_from_start(world);
   const std::string name = folder + "/" + std::to_string(seed);
   write_text_file(name + ".lua",
-                  scenario_to_lua(make_mission_to_drive(world),
+                  scenario_to_lua(with_whole_paths(make_mission_to_drive(world), world.mission().assets, packs),
                                   "Pile " + std::to_string(seed) + " of `rubble bench navigate`, to be driven through over "
                                   "ROS 1 (docs/explanation/autonomy.md):\n  rubble drive " + std::to_string(seed) + ".lua --ros1 &\n"
                                   "  ros1_navigator" + goal_options(waypoints)));

@@ -18,6 +18,6 @@ Scenario make_mission_to_drive(const NavigationWorld& world);
 std::vector<Vec3> waypoints_from_start(const NavigationWorld& world);
 
 // Writes SEED.lua, and SEED.json with the waypoints, into a folder that is there.
-void write_mission_to_drive(const std::string& folder, std::uint64_t seed, const NavigationWorld& world);
+void write_mission_to_drive(const std::string& folder, std::uint64_t seed, const NavigationWorld& world, bool packs);
 
 }  // namespace rubble

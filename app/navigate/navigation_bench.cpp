@@ -47,15 +47,16 @@ std::vector<NavigationResult> run_navigation_bench(const NavigationBenchRequest&
                                                    const std::function<void(const std::string&)>& note) {
   const SeededPiles piles{request.of, parse_seeds(request.seeds, "--seeds"), {"pile"}, note};
   const bool plans = parse_planner(request.planner);
-  const std::string cache = request.of.out + "/arcs";
+  const std::string cache = request.of.out + "/arcs.part";
   make_output_folder(request.of.out);
-  for (const char* folder : {"ways", "missions", "arcs"}) make_folder_below(request.of.out, folder);
+  remove_output_folder(cache);  // of a bench that was killed
+  for (const char* folder : {"ways", "missions", "arcs.part"}) make_folder_below(request.of.out, folder);
   std::vector<NavigationResult> results;
   for_each_pile(piles, [](const ResolvedMission&) {}, [&](const SeededPile& pile) {
     NavigationRules rules;
     rules.plans = plans;
     const NavigationWorld world(pile.mission, pile.state, rules, pile.threads);
-    write_mission_to_drive(request.of.out + "/missions", pile.seed, world);
+    write_mission_to_drive(request.of.out + "/missions", pile.seed, world, !request.of.asset_packs.empty());
     if (request.missions_only) return results.push_back({pile.seed, {}});
     results.push_back({pile.seed, navigate(world, pile.seed, cache)});
     write_way(request.of.out + "/ways/" + std::to_string(pile.seed) + ".csv", world, results.back().score);

@@ -189,7 +189,7 @@ void save(const ResolvedMission& mission, const PileState& state, std::uint64_t 
   if (mission.scenario.victims.count > 0) write_text_file(folder.file("victims.json"), describe_victims(find_victims(state)));
   save_fines_of(mission.scenario.fines, state, folder.path());
   save_pile_state(state, folder.file("pile.bin"));
-  folder.note_pile(work);
+  folder.note_pile(work, state.deepest_overlap);
 }
 
 // Strews fines over the pile, with what a person sees of it. A million takes a minute or more, so a signal ends it.
@@ -209,6 +209,7 @@ void strew(const ResolvedMission& mission, RunContext& context, PileState& pile,
 SettledPile load(const FinesSpec& fines, bool recorded, const RunFolder& folder) {
   SettledPile settled;
   settled.state = load_pile_state(folder.file("pile.bin"));
+  settled.state.deepest_overlap = folder.noted_overlap();
   load_fines_of(fines, folder.path(), settled.state);
   if (recorded) settled.track = load_track(folder.file("track.bin"));
   return settled;

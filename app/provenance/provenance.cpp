@@ -99,7 +99,7 @@ Provenance make_provenance(RunKind kind, const Mission& mission, const MissionOp
   provenance.script = mission.script;
   provenance.script.path = printable(fs::path(mission.script.path).filename().string());
   for (SourceFile file : mission.included) {
-    file.path = fs::path(file.path).lexically_relative(folder).lexically_normal().string();
+    file.path = printable(fs::path(file.path).lexically_relative(folder).lexically_normal().string());
     provenance.included.push_back(std::move(file));
   }
   provenance.seed = options.seed;

@@ -1,6 +1,8 @@
 #include "app/provenance/run_folder.h"
 
 #include <filesystem>
+#include <locale>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "io/base/remove_files.h"
 #include "kernel/base/error.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/parallel.h"
 #include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/system/output_files.h"
@@ -49,7 +52,7 @@ bool holds_nothing_but_unfinished(const std::string& path) {
 }
 
 std::string pile_note(const RunFolder& folder, std::uint64_t work) {
-  return hex64(work) + " " + sha256_of_file(folder.file("pile.bin")) + "\n";
+  return hex64(work) + " " + sha256_of_file(folder.file("pile.bin"));
 }
 
 }  // namespace
@@ -101,13 +104,24 @@ RunFolder RunFolder::open_unfinished(const std::string& path) {
                     "if the run was killed before it had read its mission, start it again with `rubble run`"});
 }
 
-void RunFolder::note_pile(std::uint64_t work) const {
-  write_text_file(file("unfinished/settled.txt"), pile_note(*this, work));
+void RunFolder::note_pile(std::uint64_t work, const DeepestOverlap& overlap) const {
+  write_text_file(file("unfinished/settled.txt"), pile_note(*this, work) + "\n" + exact_text(overlap.depth) + " " +
+                                                      std::to_string(overlap.piece_a) + " " + std::to_string(overlap.piece_b) + "\n");
+}
+
+DeepestOverlap RunFolder::noted_overlap() const {
+  std::istringstream words(read_whole_file(file("unfinished/settled.txt")));
+  std::string pile;
+  std::getline(words, pile);
+  DeepestOverlap overlap;
+  words.imbue(std::locale::classic());
+  words >> overlap.depth >> overlap.piece_a >> overlap.piece_b;
+  return words ? overlap : DeepestOverlap();
 }
 
 bool RunFolder::has_pile_of(std::uint64_t work) const {
   if (!has("pile.bin") || !has("unfinished/settled.txt")) return false;
-  return read_whole_file(file("unfinished/settled.txt")) == pile_note(*this, work);
+  return read_whole_file(file("unfinished/settled.txt")).rfind(pile_note(*this, work) + "\n", 0) == 0;
 }
 
 bool RunFolder::has(const std::string& name) const {

@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "kernel/model/pile_state.h"
+
 namespace rubble {
 
 class FolderLock;
@@ -43,9 +45,11 @@ class RunFolder {
   void begin(const std::string& run_json);
   void finish() const;
   // Of pile.bin, which is complete: `work` is the hash of what it was made from (hash_work()).
-  void note_pile(std::uint64_t work) const;
+  void note_pile(std::uint64_t work, const DeepestOverlap& overlap) const;
   // Whether pile.bin is there, is the one that was noted, and was made from this work.
   bool has_pile_of(std::uint64_t work) const;
+  // What was noted beside it, which pile.bin does not hold.
+  DeepestOverlap noted_overlap() const;
 
   // Notes files that are about to be written, so that --force finds them whatever happens.
   void expect(const std::vector<std::string>& names) const;

@@ -328,7 +328,9 @@ UrdfFile read_urdf(const std::string& path, const std::vector<std::pair<std::str
     throw InputError({path, xacro->line, "", "<" + xacro->name + "> of xacro is not expanded", "a URDF file", "a xacro file",
                       "with a name that ends in .xacro, the xacro tool is called for it"});
   const std::string text = expand_xacro(path, *xacro, arguments);
-  return read_document(parse_xml(text, path + " (expanded)"), path + " (expanded)");
+  UrdfFile file = read_document(parse_xml(text, path + " (expanded)"), path + " (expanded)");
+  file.expanded = text;
+  return file;
 }
 
 }  // namespace rubble

@@ -61,6 +61,7 @@ struct UrdfFile {
   std::vector<UrdfLink> links;    // the root first, parents before children, siblings by the names of their joints
   std::vector<UrdfJoint> joints;  // joints[i].child == i + 1
   std::vector<std::string> warnings;  // what was left out or doubtful, each with file and line
+  std::string expanded;               // of a .xacro file, the text that the tool made of it
 };
 
 // arguments: of a .xacro file, by name (io/robot/xacro_tool.h). Throws InputError with every mistake, each with

@@ -88,7 +88,14 @@ TEST(Convert, ReadsTheBagWhereThereAreNoFrames) {
   // The same folder again: only by force.
   EXPECT_EQ(run_rubble("convert " + (scratch / "old") + " --to tum --quiet").exit_code, 1);
   EXPECT_EQ(run_rubble("convert " + (scratch / "old") + " --to tum --quiet --force").exit_code, 0);
-  EXPECT_FALSE(fs::exists(scratch / "old/convert/coco/annotations.json"));
+  EXPECT_TRUE(fs::exists(scratch / "old/convert/coco/annotations.json")) << "another format stays";
+  // Somebody's own file among ours.
+  write_file(scratch / "old/convert/tum/mine.txt", "notes");
+  const Outcome foreign = run_rubble("convert " + (scratch / "old") + " --to tum --quiet --force");
+  EXPECT_EQ(foreign.exit_code, 1);
+  EXPECT_IN("tum/mine.txt: is where the conversion writes", foreign.err);
+  EXPECT_EQ(read_file(scratch / "old/convert/tum/mine.txt"), "notes");
+  fs::remove(scratch / "old/convert/tum/mine.txt");
   // A bit in the bag.
   std::string bag = read_file(scratch / "old/mission.bag");
   bag[bag.size() / 2] = char(bag[bag.size() / 2] ^ 4);

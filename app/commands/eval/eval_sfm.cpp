@@ -1,6 +1,7 @@
 // `rubble eval sfm`: reconstructions against the true cameras and surface.
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "app/command_line/command.h"
 #include "app/commands/eval/score_output.h"
@@ -55,7 +56,14 @@ ExitCode eval_sfm(const SfmRequest& request) {
   if (request.datasets.size() > 1 && std::filesystem::path(request.model).is_absolute())
     throw InputError({"", 0, "--model", "is one folder for several datasets",
                       "a path inside each dataset", request.model, ""});
-  if (!request.details.empty()) make_output_folder(request.details);
+  if (!request.details.empty()) {
+    std::set<std::string> names;
+    for (const std::string& dataset : request.datasets)
+      if (!names.insert(name_of(dataset)).second)
+        throw InputError({"", 0, "--details", "two datasets have one name, which names their files there", "folders of different names",
+                          name_of(dataset), "score them one after the other, with a folder for each"});
+    make_output_folder(request.details);
+  }
   std::vector<ScoreRow> rows;
   for (const std::string& dataset : request.datasets)
     rows.push_back(score_dataset(dataset, request));

@@ -1,0 +1,139 @@
+#include "io/mesh/mesh_content.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "io/import/uri.h"
+#include "kernel/base/hash.h"
+#include "kernel/base/read_file.h"
+#include "kernel/base/tables/text_table.h"
+
+namespace rubble {
+namespace {
+
+// Of its first chunk: a head of 12 bytes, the chunk's length in 4 and its kind in 4.
+std::string json_of_glb(const std::string& text) {
+  if (text.size() < 20) return "";
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < 4; ++i) length |= std::size_t(std::uint8_t(text[12 + i])) << 8 * i;
+  return text.substr(20, length);
+}
+
+std::string mesh_extension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+  return extension;
+}
+
+std::string_view unquoted_name(std::string_view text) {
+  const bool quoted = text.size() > 1 && text.front() == '"' && text.back() == '"';
+  return quoted ? text.substr(1, text.size() - 2) : text;
+}
+
+class FilesBeside {
+ public:
+  explicit FilesBeside(const std::string& path) : folder_(std::filesystem::path(path).parent_path().string()) {}
+
+  bool add(std::string_view name) {
+    const auto found = find_beside(folder_, std::string(name), "textures");
+    if (found && std::find(files_.begin(), files_.end(), *found) == files_.end()) files_.push_back(*found);
+    return found.has_value();
+  }
+  // A name that may have blanks, or several names, or one after options.
+  void add_words(std::string_view names) {
+    const std::string_view whole = trimmed(names);
+    if (add(unquoted_name(whole))) return;
+    for (const std::string_view word : split_words(whole, 0).words) add(unquoted_name(word));
+  }
+  std::vector<std::string> take() { return std::move(files_); }
+
+ private:
+  std::string folder_;
+  std::vector<std::string> files_;
+};
+
+void add_gltf(const std::string& text, bool is_glb, MeshContent content, FilesBeside& files) {
+  const nlohmann::json json = nlohmann::json::parse(is_glb ? json_of_glb(text) : text, nullptr, false);
+  if (!json.is_object()) return;
+  for (const char* list : {"buffers", "images"}) {
+    if (content == MeshContent::geometry && list == std::string_view("images")) continue;
+    const auto all = json.find(list);
+    if (all == json.end() || !all->is_array()) continue;
+    for (const nlohmann::json& entry : *all) {
+      if (!entry.is_object() || !entry.contains("uri") || !entry["uri"].is_string()) continue;
+      const std::string uri = entry["uri"];
+      if (uri.compare(0, 5, "data:") != 0) files.add(uri);
+    }
+  }
+}
+
+// each(keyword, rest) of every line.
+template <typename Each>
+void for_each_line(std::string_view text, const Each& each) {
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = trimmed(text.substr(0, end));
+    const std::size_t blank = line.find_first_of(" \t");
+    if (blank != std::string_view::npos) each(line.substr(0, blank), line.substr(blank));
+    text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+  }
+}
+
+void add_obj(const std::string& text, FilesBeside& files) {
+  for_each_line(text, [&](std::string_view keyword, std::string_view rest) {
+    if (keyword == "mtllib") files.add_words(rest);
+  });
+}
+
+void add_mtl(const std::string& text, FilesBeside& files) {
+  for_each_line(text, [&](std::string_view keyword, std::string_view rest) {
+    for (const char* const image : {"map_", "bump", "disp", "decal", "refl", "norm"})
+      if (keyword.substr(0, std::string_view(image).size()) == image) return files.add_words(rest);
+  });
+}
+
+// <init_from>wood.png</init_from>, of COLLADA 1.5 with <ref> around the name.
+void add_dae(const std::string& text, FilesBeside& files) {
+  const std::string_view open = "<init_from>", close = "</init_from>";
+  for (std::size_t at = text.find(open); at != std::string::npos; at = text.find(open, at)) {
+    at += open.size();
+    std::string name = text.substr(at, text.find(close, at) - at);
+    for (const std::string_view tag : {"<ref>", "</ref>", "file://"})
+      if (const std::size_t found = name.find(tag); found != std::string::npos) name.erase(found, tag.size());
+    files.add(trimmed(name));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> list_files_of_mesh(const std::string& path, MeshContent content) {
+  FilesBeside files(path);
+  const std::string extension = mesh_extension(path);
+  if (extension == ".gltf" || extension == ".glb") add_gltf(read_file(path), extension == ".glb", content, files);
+  if (content == MeshContent::geometry) return files.take();
+  if (extension == ".dae") add_dae(read_file(path), files);
+  if (extension == ".obj") {
+    add_obj(read_file(path), files);
+    std::vector<std::string> all = files.take();
+    for (std::size_t i = 0, libraries = all.size(); i < libraries; ++i) {
+      FilesBeside images(path);
+      add_mtl(read_file(all[i]), images);
+      for (std::string& image : images.take()) all.push_back(std::move(image));
+    }
+    return all;
+  }
+  return files.take();
+}
+
+std::string sha256_of_mesh(const std::string& path, MeshContent content) {
+  const std::vector<std::string> beside = list_files_of_mesh(path, content);
+  if (beside.empty()) return sha256_of_file(path);
+  std::string sums = sha256_of_file(path);
+  for (const std::string& file : beside) sums += sha256_of_file(file);
+  return sha256(sums);
+}
+
+}  // namespace rubble

@@ -60,7 +60,7 @@ PlayedSamples samples_for(const std::vector<std::string>& names, const Scenario&
 Recording recording_of(const Scenario& scenario, const FinishedRun& saved, const AssetLibrary& assets, const PileState& pile,
                        RunContext& context) {
   if (scenario.robots.empty()) return describe_recording(scenario, assets, pile);
-  const std::vector<MissionRobot> robots = make_robots({saved.manifest.provenance, scenario, scenario.seed, assets}, context);
+  const std::vector<MissionRobot> robots = make_robots({saved.manifest.provenance, scenario, assets}, context);
   const std::vector<RobotRecord> records = describe_robots(scenario, robots);
   Recording recording = describe_recording(scenario, assets, pile, records);
   const Ride& ride = scenario.trajectory.ride;

@@ -89,7 +89,6 @@ ResolvedMission resolve_mission(const RunRequest& request, RunKind kind, RunCont
   ResolvedMission mission;
   mission.provenance = make_provenance(kind, loaded, mission_options(request));
   mission.scenario = loaded.scenario;
-  mission.pile_seed = loaded.scenario.seed;
   load_with_progress(mission, context, [&] { return load_assets(loaded, request.asset_packs); });
   mission.provenance.assets = mission.assets.contents;
   mission.provenance.robots = mission.assets.robots;
@@ -102,7 +101,6 @@ ResolvedMission resolve_pile(const Provenance& provenance, const std::vector<std
   ResolvedMission mission;
   mission.provenance = provenance;
   mission.scenario = stated_scenario(provenance);
-  mission.pile_seed = provenance.pile_from ? stated_scenario(*provenance.pile_from).seed : mission.scenario.seed;
   load_with_progress(mission, context, [&] { return load_assets(provenance, pack_folders); });
   return mission;
 }
@@ -126,7 +124,6 @@ ResolvedMission resolve_render(const RunRequest& request, const FinishedRun& sav
   adopt_pile(loaded.scenario, pile_source);
   const std::string kept = describe_kept_pile(stated, loaded.scenario, mission_options(request).overrides, saved.folder);
   if (!kept.empty()) context.warnings.push_back(kept);
-  mission.pile_seed = pile_source.seed;
   mission.scenario = loaded.scenario;
   mission.provenance = make_provenance(RunKind::render, loaded, mission_options(request));
   mission.provenance.assets = pile_from->assets;
@@ -166,7 +163,7 @@ ResolvedMission resolve_unfinished(const RunFolder& folder,
 
 Pile make_pile(const ResolvedMission& mission) {
   return with_lines_of_script(
-      mission, [&] { return generate_pile(build_pile_spec(mission.scenario.pile, mission.pile_seed, mission.assets)); });
+      mission, [&] { return generate_pile(build_pile_spec(mission.scenario.pile, mission.scenario.pile_seed(), mission.assets)); });
 }
 
 Pile make_laid_pile(const ResolvedMission& mission, const PileState& state) {

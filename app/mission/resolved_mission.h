@@ -19,7 +19,6 @@ namespace rubble {
 struct ResolvedMission {
   Provenance provenance;   // from which all the rest can be made again
   Scenario scenario;       // of a `render`, what settled the pile is that of the other run
-  std::uint64_t pile_seed = 0;  // of all that settled the pile, and of its fines
   AssetLibrary assets;     // of the pile
 };
 

@@ -177,11 +177,11 @@ std::uint64_t hash_work_of(const ResolvedMission& mission, const Pile& pile) {
   }
   const VictimScenario& victims = mission.scenario.victims;
   const FinesSpec& fines = mission.scenario.fines;
-  if (victims.count == 0) return hash_fines_work(fines, mission.pile_seed, settling);
+  if (victims.count == 0) return hash_fines_work(fines, mission.scenario.pile_seed(), settling);
   StateHash hash;
-  hash.add(settling), hash.add(mission.pile_seed);
+  hash.add(settling), hash.add(mission.scenario.pile_seed());
   hash.add(victims.count), hash.add(int(victims.difficulty)), hash.add(victims.radius);
-  return hash_fines_work(fines, mission.pile_seed, hash.digest());
+  return hash_fines_work(fines, mission.scenario.pile_seed(), hash.digest());
 }
 
 // The pile is written last: where it is, all else of it is there and complete.
@@ -201,7 +201,7 @@ void strew(const ResolvedMission& mission, RunContext& context, PileState& pile,
     throw_if_stopped(folder);
     context.progress.update(done, std::to_string(strewn) + " of " + std::to_string(amount));
   };
-  const std::string warning = lay_fines(mission.scenario.fines, mission.pile_seed, mission.assets, context.threads(), pile, show);
+  const std::string warning = lay_fines(mission.scenario.fines, mission.scenario.pile_seed(), mission.assets, context.threads(), pile, show);
   if (!warning.empty()) context.warnings.push_back(warning);
   context.progress.finish(std::to_string(pile.fines.pieces.size() + pile.fines.sheets.size()) + " strewn");
 }
@@ -228,7 +228,7 @@ std::string summarize_settling(const PileState& pile, bool loaded) {
 void add_victims(const ResolvedMission& mission, int threads, PileState& pile) {
   const Scenario& s = mission.scenario;
   with_lines_of_script(mission, [&] {
-    place_victims(s.victims, mission.pile_seed, s.settle.gravity, mission.assets, threads, pile);
+    place_victims(s.victims, mission.scenario.pile_seed(), s.settle.gravity, mission.assets, threads, pile);
     return 0;
   });
 }

@@ -120,7 +120,9 @@ Mission load_mission(const Provenance& provenance) {
 }
 
 Scenario stated_scenario(const Provenance& provenance) {
-  return scenario_from_json(provenance.scenario, "the scenario of " + provenance.script.path);
+  Scenario scenario = scenario_from_json(provenance.scenario, "the scenario of " + provenance.script.path);
+  if (provenance.pile_from) scenario.kept_pile_seed = stated_scenario(*provenance.pile_from).pile_seed();
+  return scenario;
 }
 
 void adopt_pile(Scenario& scenario, const Scenario& pile_source) {
@@ -129,6 +131,7 @@ void adopt_pile(Scenario& scenario, const Scenario& pile_source) {
   scenario.victims = pile_source.victims;
   scenario.fines = pile_source.fines;
   scenario.settle = pile_source.settle;
+  scenario.kept_pile_seed = pile_source.pile_seed();
 }
 
 void add_provenance(Json& json, const Provenance& provenance) {

@@ -89,7 +89,7 @@ Scene build_scene(const Scenario& scenario, const AssetLibrary& assets, const Pi
   scene.wetness = scenario.wetness;
   scene.lamp = scenario.lamp;
   scene.air = scenario.air;
-  scene.seed = scenario.seed;
+  scene.seed = scenario.seed, scene.look_seed = scenario.pile_seed();
   scene.start_ns = scenario.start_ns;
   return scene;
 }

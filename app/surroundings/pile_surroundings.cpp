@@ -19,7 +19,7 @@ void lay_surroundings(const Scenario& scenario, const AssetLibrary& assets, Pile
   if (!scenario.surroundings.on()) return;
   const Circle circle = find_pile_circle(pile, assets.finest_meshes());
   pile.surroundings = std::make_shared<const Surroundings>(
-      make_surroundings(scenario.surroundings, scenario.seed, circle, is_dark(scenario), scenario.wetness));
+      make_surroundings(scenario.surroundings, scenario.pile_seed(), circle, is_dark(scenario), scenario.wetness));
 }
 
 namespace {

@@ -105,7 +105,8 @@ PreparedScene prepare_scene(const Scene& scene, int threads) {
   for (const PreparedMesh& mesh : out.meshes) axes.push_back(std::uint32_t(find_longest_axis(mesh)));
   std::vector<std::uint8_t> moves;
   mark_moving(scene, moves);
-  RandomStream random(scene.seed, "render.looks");
+  const std::uint64_t seed = scene.look_seed.value_or(scene.seed);
+  RandomStream random(seed, "render.looks");
   for (const SceneInstance& instance : scene.instances) {
     if (instance.mesh >= out.meshes.size())
       throw RunError("an instance of the scene refers to mesh " + std::to_string(instance.mesh) +
@@ -121,7 +122,7 @@ PreparedScene prepare_scene(const Scene& scene, int threads) {
     out.surrounded = out.surrounded || piece.surrounds;
     // Courses of walls lie level, however high or deep a building is.
     place(out, piece, piece.surrounds ? 0 : axes[instance.mesh], random);
-    if (instance.cut_from.body) out.placed.back().look_seed = pack_cut(instance.cut_from, scene.seed);
+    if (instance.cut_from.body) out.placed.back().look_seed = pack_cut(instance.cut_from, seed);
   }
   include_motion(scene, out);
   if (scene.ground) {

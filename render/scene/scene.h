@@ -154,6 +154,7 @@ struct Scene {
   double wetness = 0;  // of all surfaces: darker, and glossy if they face up; range: 0 to 1
   AirSpec air;         // fog, smoke, dust
   std::uint64_t seed = 0;     // varies the looks of pieces and the air, never geometry
+  std::optional<std::uint64_t> look_seed{};  // of the looks of pieces; not given: `seed`
   std::int64_t start_ns = 0;  // stamp of time zero of the air
 };
 

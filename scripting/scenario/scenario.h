@@ -186,6 +186,10 @@ struct VictimScenario {
 
 struct Scenario {
   std::uint64_t seed = 0;                 // range: 0 to 2^63 - 1
+  // No key. That of the run that settled the pile, where another mission keeps it: of its fines, its surroundings and
+  // what each piece looks like.
+  std::optional<std::uint64_t> kept_pile_seed{};
+  std::uint64_t pile_seed() const { return kept_pile_seed.value_or(seed); }
   std::int64_t start_ns = 1'000'000'000;  // stamp of the first frame; ROS time 0 means invalid
   std::vector<std::string> packs;         // folders; empty: the bundled pack `concrete`
   PileScenario pile;                      // pieces, terrain, building

@@ -1,12 +1,15 @@
 // Materials that a mix draws: as often as stated, with the figures of the material, and found again.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
+#include <vector>
 
 #include "app/provenance/provenance.h"
 #include "app/scene/build_scene.h"
 #include "kernel/geometry/shape.h"
 #include "kernel/settling/generator.h"
+#include "render/geometry/geometry.h"
 #include "scripting/mission.h"
 
 namespace rubble::testing {
@@ -131,6 +134,25 @@ TEST(MixMaterials, MistakesAreNamed) {
   EXPECT_NE(error_of("{ asset = 'hinged_slab', materials = { { material = 'brick' } } }")
                 .find("keeps its materials"),
             std::string::npos);
+}
+
+// Another mission that keeps a pile has a seed of its own, of its noise; pieces look as they did.
+TEST(AdoptedPile, LooksAsInTheMissionThatSettledIt) {
+  const Mission settled = load(kMix, 3), other = load(kMix, 7);
+  Scenario kept = other.scenario;
+  adopt_pile(kept, settled.scenario);
+  const AssetLibrary assets = load_assets(settled, {});
+  PileState pile;
+  for (std::size_t i = 0; i < assets.types.size(); ++i) pile.types.push_back(assets.types[i].name);
+  pile.pieces.resize(20);
+  const auto looks_of = [&](const Scenario& scenario) {
+    std::vector<std::array<std::uint32_t, 2>> looks;
+    for (const PlacedMesh& piece : prepare_scene(build_scene(scenario, assets, pile), 1).placed) looks.push_back(piece.look_seed);
+    return looks;
+  };
+  EXPECT_EQ(kept.seed, 7U);
+  EXPECT_EQ(looks_of(kept), looks_of(settled.scenario));
+  EXPECT_NE(looks_of(kept), looks_of(other.scenario));
 }
 
 }  // namespace mix_materials_test

@@ -26,7 +26,7 @@ struct Placed {
   // text: of the table of the mission.
   explicit Placed(const std::string& text) {
     const Mission loaded = load_mission_text("return rubble.mission {" + text + "}", "m.lua");
-    mission.scenario = loaded.scenario, mission.pile_seed = loaded.scenario.seed;
+    mission.scenario = loaded.scenario;
     mission.assets = load_assets(loaded, {});
     const Pile pile = make_pile(mission);
     world = std::make_unique<World>(pile.types, WorldOptions{}, pile.assemblies);

@@ -45,7 +45,7 @@ struct RobotLink {
 // +-effort. It is found with the contacts of a substep, so that no gain makes it unstable.
 struct RobotMotor {
   double effort = 0;     // unit: N m, slider N; 0: no motor
-  double speed = 0;      // limit of position control; unit: rad/s, slider m/s; 0: no limit
+  double speed = 0;      // to which it drives the joint at most; unit: rad/s, slider m/s; 0: no limit
   double stiffness = 0;  // of position control; unit: N m/rad, slider N/m
   double damping = 0;    // of position and of velocity control; unit: N m s/rad, slider N s/m
 };

@@ -62,7 +62,7 @@ struct TreeMotor {
   bool on = false;                             // false: nothing drives the joint
   double stiffness = 0, damping = 0;           // of the present mode
   double position = 0, speed = 0, torque = 0;  // targets; unit: rad, rad/s, N m; slider m, m/s, N
-  double effort = 0, speed_limit = 0;          // bounds: of the torque, and of the speed towards a position
+  double effort = 0, speed_limit = 0;          // bounds: of the torque, and of the speed to which the motor drives
   double impulse = 0;                          // of the last substep; unit: N m s, slider N s
   double mean = 0;                             // of the last step; unit: N m, slider N
   double work = 0;                             // so far; unit: J

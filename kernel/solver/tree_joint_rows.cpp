@@ -87,7 +87,8 @@ void TreeContacts::add_motors(std::int32_t tree) {
 
 // The motor's law at the substep's end, where it will have turned by h u more:
 //   impulse = h (k (position - q - h u) + c (speed - u) + torque) = wanted - resistance u
-// On its way to a position it neither pushes beyond its speed limit nor gives way faster, as far as its effort goes.
+// On its way to a position it neither pushes beyond its speed limit nor gives way faster, as far as its effort goes. A
+// torque of its own does not drive it beyond the limit; what turns it faster is not braked.
 void TreeContacts::solve_motor(Item& item, View& view) {
   const TreeMotion& m = motion(item.sides[1].tree);
   const TreeLink& link = m.tree().links[std::size_t(item.source)];
@@ -100,9 +101,13 @@ void TreeContacts::solve_motor(Item& item, View& view) {
   const double speed = row.relative<2>(view);
   const double left = wanted - resistance * speed - row.impulse;
   double next = row.impulse + left / (1 + resistance / row.mass);
-  if (motor.stiffness > 0 && motor.speed_limit > 0) {
-    next = std::clamp(next, row.impulse + (-motor.speed_limit - speed) * row.mass,
-                      row.impulse + (motor.speed_limit - speed) * row.mass);
+  if (motor.speed_limit > 0) {
+    const double least = row.impulse + (-motor.speed_limit - speed) * row.mass;
+    const double most = row.impulse + (motor.speed_limit - speed) * row.mass;
+    if (motor.stiffness > 0)
+      next = std::clamp(next, least, most);
+    else if (motor.damping == 0)
+      next = std::clamp(next, std::min(least, 0.0), std::max(most, 0.0));
   }
   next = std::clamp(next, -item.friction, item.friction);
   row.apply<2>(next - row.impulse, view);

@@ -119,6 +119,27 @@ TEST(RobotMotor, AVelocityIsReachedAndLimited) {
   EXPECT_NEAR(world.robots().state(robot).joints[0].speed, 4, 1e-3);
 }
 
+// What turns faster by another cause is not braked, and a torque the other way has its full effect.
+TEST(RobotMotor, ATorqueDrivesUpToTheSpeedLimit) {
+  World world = make_world(0);
+  const int robot = world.robots().add(make_spinner({5, 4, 0, 0}), {{}, {0, 0, 1}});
+  const auto speed = [&] { return world.robots().state(robot).joints[0].speed; };
+  world.robots().set_command(robot, ask(MotorMode::torque, 0.5));
+  run(world, 2);
+  EXPECT_NEAR(speed(), 4, 1e-3);
+  EXPECT_NEAR(world.robots().state(robot).joints[0].torque, 0, 1e-3);
+  world.robots().set_command(robot, ask(MotorMode::torque, -0.5));
+  run(world, 2);
+  EXPECT_NEAR(speed(), -4, 1e-3);
+  // Spun up without a limit, it keeps its speed.
+  World free = make_world(0);
+  const RobotModel model = make_spinner({5, 0, 0, 0});
+  const int spun = free.robots().add(model, {{}, {0, 0, 1}});
+  free.robots().set_command(spun, ask(MotorMode::torque, 0.5));
+  run(free, 2);
+  EXPECT_GT(free.robots().state(spun).joints[0].speed, 40);
+}
+
 // However low its limit of speed, a position motor has all of its effort against a load: it lifts at that speed, and what is too
 // heavy sinks no faster than its effort allows.
 TEST(RobotMotor, ALowSpeedLimitTakesNothingOfTheEffort) {

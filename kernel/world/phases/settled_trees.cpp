@@ -1,4 +1,6 @@
 // Joints of a settled pile, found again from the plain state.
+#include <cmath>
+
 #include "kernel/base/portable_math.h"
 #include "kernel/model/settled_joints.h"
 #include "kernel/multibody/joints/joint.h"
@@ -25,6 +27,16 @@ void set_coordinates(const Pose& moved, Mobility mobility, double* q) {
     case Mobility::fixed:
       break;
   }
+}
+
+// A hinge's angle, whole turns apart from `angle`: a rotation does not say how often the link went round. A spring or
+// stops do: it is the nearest to rest, or one between the stops.
+double with_turns(double angle, const TreeLink& link) {
+  constexpr double kTurn = 2 * portable::kPi;
+  if (link.stiffness > 0) return angle + kTurn * std::round((link.rest - angle) / kTurn);
+  if (angle < link.lower && angle + kTurn <= link.upper) return angle + kTurn;
+  if (angle > link.upper && angle - kTurn >= link.lower) return angle - kTurn;
+  return angle;
 }
 
 }  // namespace
@@ -91,6 +103,7 @@ void WorldTrees::join_settled(const Pile& pile, const PileState& state) {
       set_coordinates((data_.bodies[joint->parent].world_from_com * link.parent_from_joint).inverse() * pose *
                           link.link_from_joint,
                       link.mobility, q);
+      if (link.mobility == Mobility::hinge) q[0] = with_turns(q[0], link);
     }
   }
   for (const SettledJoint* settled_loop : loops) {

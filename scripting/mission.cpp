@@ -1,10 +1,12 @@
 #include "scripting/mission.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "kernel/base/hash.h"
 #include "kernel/base/number_text.h"
+#include "kernel/robot/robot_run.h"
 #include "scripting/sandbox/script_file.h"
 #include "scripting/scenario/idle_keys.h"
 #include "scripting/scenario/mission_form.h"
@@ -209,6 +211,12 @@ std::vector<std::string> find_suspicious(const Mission& mission) {
                                      "is it in radians?"}
                               .text());
   }
+  const double asked = mission.scenario.robot_run.control_hz, used = used_rate(asked, kUsualRobotStep);
+  if (!mission.scenario.robots.empty() && std::abs(used - asked) > 1e-9 * asked)
+    sentences.push_back(Diagnostic{mission.script.path, mission.lines.line_of("robot_run.control_hz"), "robot_run.control_hz",
+                                   "commands and recordings have another rate", "a rate that divides 240 Hz, that of the simulation's steps",
+                                   plain_text(asked), "it is taken as " + brief_text(used) + " Hz"}
+                            .text());
   return sentences;
 }
 

@@ -72,10 +72,10 @@ std::uint64_t hash_robots(const std::vector<RobotSample>& samples) {
     for (const auto* list : {&s.positions, &s.speeds, &s.efforts})
       for (const double value : *list) hash.add(value);
     for (const RobotSample::Wrench& w : s.contacts) add(hash, w.force), add(hash, w.moment);
-    add(hash, s.world_from_base.translation);
+    add(hash, s.world_from_base);
     add(hash, s.linear_velocity), add(hash, s.angular_velocity);
     if (!s.odometry) continue;
-    add(hash, s.odometry->odom_from_base.translation);
+    add(hash, s.odometry->odom_from_base);
     hash.add(s.odometry->linear), hash.add(s.odometry->angular);
   }
   return hash.digest();

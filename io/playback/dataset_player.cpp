@@ -58,6 +58,7 @@ struct DatasetPlayer::State {
   std::size_t next_beside = 0;
   std::vector<std::string> notes;
   bool rig_velocity_noted = false;
+  std::map<std::string, std::map<std::int64_t, Pose>> poses_of_rigs;  // by what carries them
 
   bool several() const { return dataset.recording.cameras.size() > 1 || has_file(dataset.folder + "/cameras"); }
   std::string folder_of(std::size_t camera) const {
@@ -73,7 +74,8 @@ struct DatasetPlayer::State {
   void add_readings();
   RosSampleSource ros_source() const;
   std::map<std::int64_t, Pose> carrier_poses(std::size_t camera) const;
-  void set_rig_velocity(const CameraRecord& record, const FramesFolder& folder, Frame& frame);
+  void set_rig_velocity(const CameraRecord& record, Frame& frame);
+  const std::map<std::int64_t, Pose>& rig_poses(const std::string& carrier);
   Frame read_frame(std::size_t camera);
   void give(Frame frame, const std::function<void(Sample)>& take);
   void give_rest(const std::function<void(Sample)>& take);
@@ -191,16 +193,28 @@ RosSampleSource DatasetPlayer::State::ros_source() const {
   return source;
 }
 
-// The tables have the velocity of the camera alone, which is that of the rig where the camera is the rig.
-void DatasetPlayer::State::set_rig_velocity(const CameraRecord& record, const FramesFolder& folder, Frame& frame) {
+// At the stamps of all cameras that it carries.
+const std::map<std::int64_t, Pose>& DatasetPlayer::State::rig_poses(const std::string& carrier) {
+  std::map<std::int64_t, Pose>& poses = poses_of_rigs[carrier];
+  if (!poses.empty()) return poses;
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    const CameraRecord& record = dataset.recording.cameras[i];
+    if (record.carrier != carrier) continue;
+    for (const Frame& frame : folders[i].frames)
+      poses[frame.stamp_ns] = record.is_rig() ? frame.world_from_camera : frame.world_from_camera * record.rig_from_camera.inverse();
+  }
+  return poses;
+}
+
+// The tables have the velocity of the camera. That of the rig is less by what its turning adds at the camera, which is
+// found from the poses around.
+void DatasetPlayer::State::set_rig_velocity(const CameraRecord& record, Frame& frame) {
   frame.rig_velocity = frame.linear_velocity;
   if (record.is_rig()) return;
-  std::map<std::int64_t, Pose> around;
-  const auto index = std::size_t(frame.index);
-  for (std::size_t i = index == 0 ? 0 : index - 1; i <= index + 1 && i < folder.frames.size(); ++i)
-    around[folder.frames[i].stamp_ns] = folder.frames[i].world_from_camera * record.rig_from_camera.inverse();
-  frame.rig_velocity = velocity_at(around, frame.stamp_ns, {});
-  if (!rig_velocity_noted) notes.push_back("the velocity of the rig is the difference of its poses");
+  const std::map<std::int64_t, Pose>& poses = rig_poses(record.carrier);
+  frame.rig_velocity = frame.linear_velocity - (velocity_at(poses, frame.stamp_ns, record.rig_from_camera.translation) -
+                                                velocity_at(poses, frame.stamp_ns, {}));
+  if (!rig_velocity_noted) notes.push_back("the angular velocity of the rig is the difference of its poses");
   rig_velocity_noted = true;
 }
 
@@ -212,7 +226,7 @@ Frame DatasetPlayer::State::read_frame(std::size_t camera) {
   frame.intrinsics = dataset.intrinsics[camera];
   frame.baseline = record.baseline;
   frame.world_from_rig = record.is_rig() ? frame.world_from_camera : frame.world_from_camera * record.rig_from_camera.inverse();
-  set_rig_velocity(record, folder, frame);
+  set_rig_velocity(record, frame);
   std::vector<std::string> channels{"rgb", "depth"};
   if (record.channels.right) channels.push_back("rgb_right");
   if (record.channels.measured_depth) channels.push_back("measured_depth");

@@ -188,14 +188,15 @@ class SdfBuilder {
     return text + "</plugin>\n";
   }
 
-  // A camera of SDF looks along X, with Z up, as those of missions.
+  // A camera of SDF looks along X, with Z up, as those of missions. Its principal point is measured from the corner of the
+  // image (gz-rendering's projection), ours from the middle of the first pixel.
   static std::string camera_text(const SimCamera& camera, const Pose& pose) {
     const double fov = 2 * portable::atan2(0.5 * camera.width, camera.fx);
     return "        <sensor name=\"" + xml_text(camera.name) + "\" type=\"camera\">\n          " + pose_text(pose) + "<camera>" +
            element("horizontal_fov", exact_text(fov)) + "<image>" + element("width", std::to_string(camera.width)) +
            element("height", std::to_string(camera.height)) +
            "</image><clip><near>0.02</near><far>200</far></clip><lens><intrinsics>" + element("fx", exact_text(camera.fx)) +
-           element("fy", exact_text(camera.fy)) + element("cx", exact_text(camera.cx)) + element("cy", exact_text(camera.cy)) +
+           element("fy", exact_text(camera.fy)) + element("cx", exact_text(camera.cx + 0.5)) + element("cy", exact_text(camera.cy + 0.5)) +
            "<s>0</s></intrinsics></lens></camera>\n        </sensor>\n";
   }
 

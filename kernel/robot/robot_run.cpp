@@ -38,10 +38,6 @@ void check(const RobotRunOptions& options) {
          "1 to 1000 Hz, or 0", options.track_hz);
 }
 
-std::int64_t period(double hz, double step) {
-  return std::max(std::int64_t(1), std::int64_t(1 / (hz * step) + 0.5));
-}
-
 std::shared_ptr<const TriangleMesh> find_surroundings(const PileState& state) {
   if (!state.surroundings) return nullptr;
   TriangleMesh surface = make_solid_surface(*state.surroundings, kFeltReach);
@@ -55,6 +51,8 @@ std::string text_of(const char* format, double a, double b, double c) {
 }
 
 }  // namespace
+
+std::int64_t steps_between(double hz, double step) { return std::max(std::int64_t(1), std::int64_t(1 / (hz * step) + 0.5)); }
 
 RobotRun::RobotRun(const Pile& pile, const PileState& state, const RobotRunOptions& options)
     : options_(options),
@@ -173,7 +171,7 @@ void RobotRun::check_room() const {
 }
 
 void RobotRun::measure() {
-  const std::int64_t second = period(1, options_.step);
+  const std::int64_t second = steps_between(1, options_.step);
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     Driven& r = robots_[i];
     const RobotState state = world_.robots().state(int(i));
@@ -201,11 +199,11 @@ void RobotRun::begin() {
 }
 
 void RobotRun::step() {
-  if (steps_ % period(options_.control_hz, options_.step) == 0) control();
+  if (steps_ % steps_between(options_.control_hz, options_.step) == 0) control();
   world_.step();
   if (steps_++ == 0) check_room();
   measure();
-  if (options_.track_hz > 0 && steps_ % period(options_.track_hz, options_.step) == 0) recorder_.observe(world_);
+  if (options_.track_hz > 0 && steps_ % steps_between(options_.track_hz, options_.step) == 0) recorder_.observe(world_);
 }
 
 RobotRunResult RobotRun::finish() {

@@ -25,9 +25,15 @@ struct RobotSense {
 };
 using RobotController = std::function<RobotCommand(const RobotSense&)>;
 
+inline constexpr double kUsualRobotStep = 1.0 / 240;  // unit: s
+
+// What a rate comes to in steps of the simulation: something happens after whole steps. unit: Hz, s
+std::int64_t steps_between(double hz, double step);
+inline double used_rate(double hz, double step) { return 1 / (double(steps_between(hz, step)) * step); }
+
 struct RobotRunOptions {
   double duration = 10;         // unit: s; range: above 0
-  double step = 1.0 / 240;      // unit: s; range: 1/1000 to 1/30
+  double step = kUsualRobotStep;  // unit: s; range: 1/1000 to 1/30
   int substeps = 4;             // of the contact solver in a step; range: 1 to 64
   double control_hz = 60;       // rounded to whole steps; range: 1 to 1000
   double track_hz = 60;         // samples of the track; rounded to whole steps; range: 1 to 1000; 0: none

@@ -56,6 +56,7 @@ void SimulatedPath::add(Pose pose) {
 }
 
 void SimulatedPath::set_tangents(std::size_t i) {
+  if (i == 0 && first_ == 0 && from_rest_) return;
   const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(poses_.size() - 1, i + 1);
   const Pose &a = poses_[before], &b = poses_[after];
   velocities_[i] = central_difference(a.translation, b.translation, after - before);

@@ -13,12 +13,12 @@ namespace rubble {
 // are continuous. In free fall by symplectic Euler steps the acceleration is exactly that of gravity.
 class SimulatedPath : public MotionPath {
  public:
-  // poses: one a step, at least two. step: unit: s; > 0
+  // Of a body that moves before the first pose. poses: one a step, at least two. step: unit: s; > 0
   SimulatedPath(const std::vector<Pose>& poses, double step);
 
-  // A path that grows: needs two poses before it is asked. The curve up to a step is final once the step after the next
+  // A path that grows, of a body that is at rest at its first pose: needs two poses before it is asked. The curve up to a step is final once the step after the next
   // is there.
-  explicit SimulatedPath(double step) : step_(step) {}
+  explicit SimulatedPath(double step) : step_(step), from_rest_(true) {}
   void add(Pose pose);  // of the next step
   void clear();
   // Forgets the steps before that one, but for the last three.
@@ -42,6 +42,7 @@ class SimulatedPath : public MotionPath {
   std::vector<Vec3> velocities_;  // at the steps, of one step; unit: m
   std::vector<Quat> turnings_;    // likewise, of the quaternions' components
   double step_;
+  bool from_rest_ = false;
   std::int64_t first_ = 0;  // step of the first pose
 };
 

@@ -71,6 +71,16 @@ TEST_F(Warnings, NameAnAngleThatLooksLikeRadians) {
   EXPECT_IN("m.lua:2: camera.fov_deg: 1.57 degrees is very narrow (is it in radians?)", said);
 }
 
+TEST_F(Warnings, NameARateThatStepsCannotKeep) {
+  const auto said = [this](const std::string& hz) {
+    return of_mission("return rubble.mission {\n  robots = { rubble.robot.crawler { position = { 0, 0, 0.1 } } },\n"
+                      "  robot_run = { duration = 0.5, control_hz = " + hz + " } }");
+  };
+  EXPECT_IN("m.lua:3: robot_run.control_hz: commands and recordings have another rate", said("100"));
+  EXPECT_IN("it is taken as 120 Hz", said("100"));
+  for (const char* kept : {"120", "60", "30", "1", "240"}) EXPECT_EQ(said(kept).find("another rate"), std::string::npos) << kept;
+}
+
 TEST_F(Warnings, NameAFrameWhoseCameraIsBelowTheGround) {
   // A slope of 45 degrees from x = -1, z = 0 to x = 1, z = 2 in the second row of cases.
   const std::string slope = "terrain = { columns = 2, rows = 2, spacing = 2, heights = { 0, 2, 0, 2 } }";

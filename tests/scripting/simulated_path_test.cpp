@@ -85,6 +85,24 @@ TEST(ImuOnASimulatedBody, IntegratedFollowsTheTruePose) {
   }
 }
 
+// A robot begins at rest: so does what is integrated, and the first reading has the whole jerk of the start.
+TEST(ImuOnASimulatedBody, FeelsTheStart) {
+  SimulatedPath path(kStep);
+  for (int i = 0; i <= 240; ++i) path.add({{}, {0.5 * 3 * (i * kStep) * ((i + 1) * kStep), 0, 0}});  // 3 m/s2 by symplectic steps
+  EXPECT_TRUE(path.motion_at(0).velocity == Vec3());
+  for (const double rate : {100.0, 200.0, 400.0}) {
+    Imu imu(path, without_noise(rate), kGravity, 1, 0);
+    double speed = 0;
+    Vec3 before = imu.take().linear_acceleration;
+    EXPECT_GT(before.x, 2.9);
+    for (int i = 1; i <= int(rate / 2); ++i) {
+      const Vec3 felt = imu.take().linear_acceleration;
+      speed += 0.5 * (before.x + felt.x) / rate, before = felt;
+    }
+    EXPECT_NEAR(speed, 1.5, 0.015) << rate;
+  }
+}
+
 // The unit at a lever arm feels what a unit feels whose own poses were simulated.
 TEST(ImuOnASimulatedBody, LeverArmIsThatOfItsOwnPlace) {
   const Pose body_from_imu{portable::quat_from_rpy(0.5, 0.1, -1), {0.3, -0.2, 0.4}};

@@ -34,6 +34,14 @@ std::string code_of(const std::string& mission, const std::vector<std::string>& 
   return text;
 }
 
+// " (channel `depth`, frame 3)": of the pictures of the run.
+std::string choice_of(const GalleryPicture& picture) {
+  std::string text;
+  if (picture.channel != GalleryPicture().channel) text = "channel `" + picture.channel + "`";
+  if (picture.frame != 0) text += (text.empty() ? "frame " : ", frame ") + std::to_string(picture.frame);
+  return text.empty() ? "" : " (" + text + ")";
+}
+
 std::string page_of(const GallerySection& section) {
   std::string page = "\n## " + section.title + "\n";
   if (!section.text.empty()) page += "\n" + section.text + "\n";
@@ -42,7 +50,7 @@ std::string page_of(const GallerySection& section) {
   for (const GalleryPicture& picture : section.pictures) {
     const std::vector<std::string> own(picture.set.begin() + static_cast<long>(section.set.size()), picture.set.end());
     page += "\n![" + picture.name + "](pictures/gallery/" + picture.name + ".jpg)\n\n" + picture.caption +
-            code_of(picture.mission == section.mission ? "" : picture.mission, own) + "\n";
+            code_of(picture.mission == section.mission ? "" : picture.mission, own) + choice_of(picture) + "\n";
   }
   return page;
 }
@@ -71,7 +79,8 @@ Gallery load_gallery(const std::string& path) {
 std::string gallery_page(const Gallery& gallery) {
   std::string page =
       "# Gallery\n\n`make pictures` draws these pictures from bundled missions; [gallery.json](gallery.json) lists them.\n"
-      "Below each picture are the mission and the keys that it changes, for `--set`:\n\n"
+      "Below each picture are the mission and the keys that it changes, for `--set`. "
+      "Unless stated, it is the colour of frame 0:\n\n"
       "    rubble run scripts/collapse/lean_to.lua --set camera.width=720 --set camera.height=540 --set lamp.on=false\n";
   for (const GallerySection& section : gallery.sections) page += page_of(section);
   return page;

@@ -10,6 +10,7 @@
 #include "app/formats/recording_formats.h"
 #include "io/scenes/pile_export.h"
 #include "kernel/structure/building.h"
+#include "scripting/robots/robot_kind.h"
 
 namespace rubble {
 namespace {
@@ -23,7 +24,7 @@ constexpr double kSamplingMargin = 4.0 / 3;  // what the draw may favour large m
 constexpr double kPieceBytes = 137;          // in pile.bin
 constexpr double kBondedPieceBytes = 400;    // of a building's piece besides, for bodies and up to four ties
 constexpr double kKeyBytes = 84, kClipBytes = 32;  // in track.bin and track.glb
-constexpr double kMovingTime = 4;  // of a piece after its layer's time limit; unit: s
+constexpr double kMovingTime = 4;  // of a piece after its layer's time limit, or pushed by a robot; unit: s
 
 // What lies there, as far as it can be known before it is drawn: means over the mix.
 double triangles_of(const AssetLibrary& assets, int type) {
@@ -131,6 +132,39 @@ void add_track(const Scenario& s, const PileModelSize& pile, Estimate& sizes) {
   sizes["track.glb"] = std::uint64_t(find_mesh_format("glb").estimate(pile) + clip + 2e4);
 }
 
+// What a robot's files depend on; of one from a URDF file, which is not read yet, those of a large one.
+struct RobotSize {
+  double links = 30, driven = 30, description = 5e6;  // description: URDF and meshes; unit: byte
+};
+
+RobotSize size_of_robot(const RobotItem& robot) {
+  constexpr double kUrdfBytes = 3000, kTriangleBytes = 50, kPointBytes = 200;
+  if (!robot.urdf.empty()) return {};
+  const RobotModel model = robot_kinds()[std::size_t(robot.model)]->make(robot);
+  RobotSize size{double(model.links.size()), 0, 0};
+  for (const RobotJoint& joint : model.joints) size.driven += joint.motor.effort > 0;
+  for (const RobotLink& link : model.links) {
+    size.description += kUrdfBytes + kTriangleBytes * double(link.looks.triangles.size());
+    for (const ConvexPart& part : link.parts) size.description += kPointBytes * double(part.points.size());
+  }
+  return size;
+}
+
+// The folder robots/: app/robots/robot_files.h.
+void add_robots(const Scenario& s, const PileModelSize& pile, Estimate& sizes) {
+  constexpr double kTrackRate = 60, kNumberBytes = 25, kOdometryNumbers = 11, kPoseNumbers = 7;
+  if (s.robots.empty()) return;
+  const double moved = s.robot_run.debris == DebrisMotion::fixed ? 0 : pile.pieces;
+  const double samples = s.robot_run.duration * kTrackRate + 2, controls = s.robot_run.duration * s.robot_run.control_hz + 2;
+  double bytes = moved * (kMovingTime * kTrackRate + 1) * kKeyBytes + 5000;
+  for (const RobotItem& robot : s.robots) {
+    const RobotSize size = size_of_robot(robot);
+    bytes += size.description + samples * (size.links * kKeyBytes + (1 + kPoseNumbers) * kNumberBytes) +
+             controls * (2 + 3 * size.driven + kOdometryNumbers) * kNumberBytes;
+  }
+  sizes["robots"] = std::uint64_t(bytes);
+}
+
 double count_frames(const std::vector<RecordedSize>& cameras) {
   double frames = 0;
   for (const RecordedSize& size : cameras) frames += size.flight.frames;
@@ -172,6 +206,7 @@ Estimate estimate_outputs(const Scenario& s, const AssetLibrary& assets) {
   sizes["manifest.json"] = std::uint64_t(count_frames(recorded) * 250 + kManifestBytes);
   add_meshes(s, pile, sizes);
   add_track(s, pile, sizes);
+  add_robots(s, pile, sizes);
   add_recordings(s, recorded, sizes);
   return sizes;
 }

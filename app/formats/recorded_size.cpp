@@ -87,8 +87,9 @@ FlightSize size_of_flight(const Scenario& s, std::size_t camera) {
     const SimplemapOptions key;
     const auto poses = sample_trajectory(path, s.start_ns);
     size.frames = double(poses.size());
-    size.key_frames = 1;
-    for (std::size_t i = 1; i < poses.size(); ++i) {
+    // The way of a robot is known only after its drive: every frame may be a key frame.
+    size.key_frames = path.ride.on() ? size.frames : 1;
+    for (std::size_t i = 1; i < poses.size() && !path.ride.on(); ++i) {
       const Pose &a = poses[i - 1].world_from_camera, &b = poses[i].world_from_camera;
       size.key_frames +=
           std::min(1.0, distance(a.translation, b.translation) / key.distance +
@@ -99,6 +100,7 @@ FlightSize size_of_flight(const Scenario& s, std::size_t camera) {
   size.imu_samples = size.frames * imu_rate / path.rate_hz;
   if (camera == 0) size.readings = size.frames * rate_of_readings(s) / path.rate_hz;
   if (camera == 0) count_scans(s, size.frames / path.rate_hz, size);
+  if (camera == 0) size.robot_samples = double(s.robots.size()) * (s.robot_run.duration * s.robot_run.control_hz + 2);
   if (!s.record_settling.on) return size;
   if (!mounted.ride.on()) size.frames += frames_of_settling(s, mounted);  // robots start when the pile rests
   if (camera == 0) count_scans(s, duration_of_settling(s), size);

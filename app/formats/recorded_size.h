@@ -15,6 +15,7 @@ constexpr double kPictureOverhead = 2048;  // of a file and its line in a list; 
 struct FlightSize {
   // At most; a mean where the pile decides. points: of the scans, with all their returns.
   double frames = 0, key_frames = 0, imu_samples = 0, scans = 0, points = 0, readings = 0;
+  double robot_samples = 0;  // of all robots: what their joints and wheels say
 };
 // Of one of its cameras; other sensors are counted with the first.
 FlightSize size_of_flight(const Scenario& scenario, std::size_t camera);

@@ -79,6 +79,11 @@ double size_of_simplemap_frame(const CameraScenario& camera) {
 
 RosOptions ros_of(In in) { return ros_options(in.scenario.outputs, in.recording); }
 
+// Scans, and joints, odometry, transforms and contacts of robots; unit: byte.
+double size_of_ros_samples(const FlightSize& flight) {
+  return size_of_scans(flight, 500, 22) + 3000 * flight.robot_samples;
+}
+
 constexpr HeldSamples kFrames{}, kAll{true, true, true, true, false}, kInertial{true, false, false, false, true},
     kScans{false, true}, kReadings{false, false, true}, kRobots{false, false, false, true};
 
@@ -90,7 +95,8 @@ const std::vector<RecordingFormat> kFormats{
        return make_rawlog_recorder(p, rawlog_options(in));
      },
      [](Size s) {
-       return s.of(s.picture.rawlog() + kFrameOverhead, 420) + size_of_scans(s.flight, 2000, 16);
+       return s.of(s.picture.rawlog() + kFrameOverhead, 420) + size_of_scans(s.flight, 2000, 16) +
+              700 * s.flight.robot_samples;
      }},
     {"simplemap", "mission.simplemap", false, &OutputScenario::simplemap, kFrames,
      [](Path p, In in) -> Made {
@@ -101,12 +107,12 @@ const std::vector<RecordingFormat> kFormats{
     {"bag", "mission.bag", false, &OutputScenario::bag, kAll,
      [](Path p, In in) -> Made { return make_rosbag_recorder(p, ros_of(in)); },
      [](Size s) {
-       return s.of(s.picture.ros() + kFrameOverhead, 420, s.legend) + size_of_scans(s.flight, 500, 22);
+       return s.of(s.picture.ros() + kFrameOverhead, 420, s.legend) + size_of_ros_samples(s.flight);
      }},
     {"mcap", "mission.mcap", false, &OutputScenario::mcap, kAll,
      [](Path p, In in) -> Made { return make_mcap_recorder(p, ros_of(in)); },
      [](Size s) {
-       return s.of(s.picture.ros() + kFrameOverhead, 420, s.legend + 1e5) + size_of_scans(s.flight, 500, 22);
+       return s.of(s.picture.ros() + kFrameOverhead, 420, s.legend + 1e5) + size_of_ros_samples(s.flight);
      },
      false, false, kBagMetadata},
     {"groundtruth", "groundtruth.txt", false, &OutputScenario::groundtruth, kFrames,

@@ -155,7 +155,7 @@ void prepare_output_folder(const std::string& folder, bool force,
   if (empty) return;
   if (!force) {
     refuse(folder, "the output folder is not empty",
-           "--force replaces our files in it and leaves all others");
+           "--force replaces the files of the earlier run and leaves all others");
   }
   remove_plain_files(folder, outputs);
   remove_plain_files(folder, outputs, ".part");

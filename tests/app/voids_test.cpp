@@ -43,6 +43,24 @@ TEST_F(Voids, MapsThePileOfARunTheSameEachTime) {
   EXPECT_EQ(json["robots"][0]["radius"], 0.1);
 }
 
+// Surfaces of two maps together would belong to neither.
+TEST_F(Voids, ReplacesAnEarlierMapWhole) {
+  const ScratchFolder& scratch = *scratch_;
+  const std::string map = "voids " + (scratch / "a") + " --voxel 0.05 --radius 0.1 --out " + (scratch / "twice");
+  const auto surfaces = [&] {
+    int count = 0;
+    for (const auto& entry : fs::directory_iterator(scratch / "twice")) count += entry.path().extension() == ".ply";
+    return count;
+  };
+  ASSERT_EQ(run_rubble(map).exit_code, 0);
+  ASSERT_GT(surfaces(), 1);
+  write_file(scratch / "twice/void_of_mine.ply", "ply");
+  write_file(scratch / "twice/notes.txt", "mine");
+  ASSERT_EQ(run_rubble(map + " --surfaces 1 --force").exit_code, 0);
+  EXPECT_EQ(surfaces(), 2) << "one of the map, and a file of another name";
+  EXPECT_TRUE(fs::exists(scratch / "twice/notes.txt"));
+}
+
 TEST_F(Voids, RefusesWhatMemoryWouldNotHoldAndFoldersWithoutARun) {
   const ScratchFolder& scratch = *scratch_;
   const Outcome large = run_rubble("voids " + (scratch / "a") + " --voxel 0.002 --memory 0.1");

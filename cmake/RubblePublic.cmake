@@ -32,6 +32,7 @@ set(RUBBLE_PUBLIC_HEADERS
   kernel/robot/drive_commands.h
   kernel/robot/odometry.h
   kernel/robot/robot_run.h
+  kernel/robot/step_rate.h
   kernel/settling/collapse_report.h
   kernel/settling/generator.h
   kernel/settling/settle.h

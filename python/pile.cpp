@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/assets/asset_library.h"
+#include "app/control/robot_control.h"
 #include "app/mission/finished_run.h"
 #include "app/pipeline/stages.h"
 #include "app/surroundings/pile_surroundings.h"
@@ -54,6 +55,7 @@ Pile settle(const nb::object& mission, const nb::object& seed, const nb::object&
   RunContext context(quiet(to_threads(threads)));
   auto settled = std::make_shared<SettledMission>();
   settled->mission = resolve_mission(request, RunKind::settle, context);
+  check_robot_models(settled->mission.scenario, settled->mission.assets, settled->mission.provenance.script);
   settled->state = settle_in_memory(settled->mission, context, [] { return true; }).state;
   return {settled, context.threads()};
 }
@@ -243,8 +245,21 @@ std::string check_mission(const nb::object& script, const nb::object& seed, cons
   options.overrides = to_overrides(overrides, "overrides");
   if (!seed.is_none()) options.seed = to_mission_seed(seed);
   const Mission mission = load_mission(to_path(script, "script"), options);
-  print_warnings(load_assets(mission, {}).warnings);
+  const AssetLibrary assets = load_assets(mission, {});
+  print_warnings(assets.warnings);
+  check_robot_models(mission.scenario, assets, mission.script);
   return scenario_to_json(mission.scenario);
+}
+
+// The same without its assets, and the keys that are stated in vain.
+nb::tuple load_scenario(const nb::object& script, const nb::object& seed, const nb::object& overrides) {
+  MissionOptions options;
+  options.overrides = to_overrides(overrides, "overrides");
+  if (!seed.is_none()) options.seed = to_mission_seed(seed);
+  const Mission mission = load_mission(to_path(script, "script"), options);
+  nb::list idle;
+  for (const Diagnostic& d : mission.idle_keys) idle.append(d.key);
+  return nb::make_tuple(scenario_to_json(mission.scenario), idle);
 }
 
 void set_sandbox(const nb::object& folder) {
@@ -282,6 +297,7 @@ void add_pile(nb::module_& module) {
   module.def("settle", &settle, nb::arg("mission"), nb::arg("seed") = nb::none(),
              nb::arg("overrides") = nb::make_tuple(), nb::arg("threads") = 0,
              "Settles the pile of a mission script. overrides: \"key=value\", as rubble run --set.");
+  module.def("_scenario", &load_scenario, nb::arg("script"), nb::arg("seed") = nb::none(), nb::arg("overrides") = nb::list());
   module.def("check_mission", &check_mission, nb::arg("script"), nb::arg("seed") = nb::none(),
              nb::arg("overrides") = nb::make_tuple());
   // What an argument that is a list of overrides has; raises InputError for a single text.

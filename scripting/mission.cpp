@@ -6,7 +6,7 @@
 
 #include "kernel/base/hash.h"
 #include "kernel/base/number_text.h"
-#include "kernel/robot/robot_run.h"
+#include "kernel/robot/step_rate.h"
 #include "scripting/sandbox/script_file.h"
 #include "scripting/scenario/idle_keys.h"
 #include "scripting/scenario/mission_form.h"

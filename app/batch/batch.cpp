@@ -8,6 +8,7 @@
 #include "app/assets/asset_library.h"
 #include "app/batch/batch_folder.h"
 #include "app/batch/seed_list.h"
+#include "app/control/robot_control.h"
 #include "app/estimate/disk_estimate.h"
 #include "app/estimate/preview.h"
 #include "app/mission/resolved_mission.h"
@@ -107,6 +108,7 @@ class Batch {
       const Mission mission = load_mission(request_.of.mission, varied);
       const AssetLibrary assets = load_assets(mission, request_.of.asset_packs);
       print_warnings(assets.warnings);
+      check_robot_models(mission.scenario, assets, mission.script);
       estimate_ = std::max(estimate_, estimate_bytes(mission.scenario, assets, request_.pile_only));
       if (request_.of.preview) {
         const RunKind kind = request_.pile_only ? RunKind::settle : RunKind::run;

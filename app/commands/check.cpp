@@ -8,6 +8,7 @@
 #include "app/assets/asset_library.h"
 #include "app/command_line/command.h"
 #include "app/command_line/common_options.h"
+#include "app/control/robot_control.h"
 #include "app/mission/resolved_mission.h"
 #include "app/robots/mission_robot.h"
 #include "app/support/print.h"
@@ -109,6 +110,7 @@ ExitCode check_mission(const CheckRequest& check) {
   for (const std::string& line : mission.printed) print_err("%s\n", line.c_str());
   const AssetLibrary assets = load_assets(mission, request.asset_packs);
   print_warnings(assets.warnings);
+  check_robot_models(mission.scenario, assets, mission.script);
   if (check.robots)
     print_robots(request.mission, mission, assets);
   else

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/control/robot_control.h"
 #include "app/drive/drive_log.h"
 #include "app/mission/scenario_lua.h"
 #include "app/planning/flight.h"
@@ -183,6 +184,7 @@ std::unique_ptr<DriveWorld> make_drive_world(const DriveRequest& request,
   RunContext& run = *world->run;
   ResolvedMission mission = resolve_mission(of, RunKind::run, run);
   refuse_several_cameras(mission);
+  check_robot_models(mission.scenario, mission.assets, mission.provenance.script);
   world->threads = run.threads();
   world->pile = settle_in_memory(mission, run, go_on).state;
   world->assets = mission.assets;

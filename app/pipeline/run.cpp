@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/control/robot_control.h"
 #include "app/pipeline/live.h"
 #include "app/estimate/preview.h"
 #include "app/provenance/earlier_files.h"
@@ -107,6 +108,7 @@ ExitCode run_to_folder(const RunRequest& request, RunKind kind) {
   check_live(request.options);
   RunContext context(request.options);
   const ResolvedMission mission = resolve_mission(request, kind, context);
+  check_robot_models(mission.scenario, mission.assets, mission.provenance.script);
   const RunPreview preview = preview_run(kind, mission.scenario, mission.assets, choose_output(request));
   if (request.preview) {
     print_out("%s%s\n", describe_files(kind, mission.scenario, mission.assets).c_str(), describe(preview).c_str());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/control/robot_control.h"
 #include "app/pipeline/stages.h"
 #include "app/support/stop.h"
 
@@ -14,6 +15,7 @@ void for_each_pile(const SeededPiles& piles, const std::function<void(const Reso
     of.seed = seed, of.options.quiet = true;
     RunContext context(of.options);
     const ResolvedMission mission = resolve_mission(of, RunKind::settle, context);
+    check_robot_models(mission.scenario, mission.assets, mission.provenance.script);
     check(mission);
     try {
       const SettledPile pile = settle_in_memory(mission, context, [] { return !stop_requested(); });

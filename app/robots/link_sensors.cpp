@@ -44,6 +44,19 @@ std::vector<std::string> find_buried_sensors(const Scenario& scenario, const std
   return finder.take();
 }
 
+void check_ridden_links(const Scenario& scenario, const std::vector<MissionRobot>& robots) {
+  const std::vector<std::string> names = robot_names(scenario.robots);
+  const auto check = [&](const Carrier& carrier, const std::string& key) {
+    if (!carrier.on()) return;
+    find_link(robots[std::size_t(std::find(names.begin(), names.end(), carrier.robot) - names.begin())], carrier.link, key);
+  };
+  check(scenario.trajectory.ride, "trajectory.ride");
+  for (const MountedCamera& camera : scenario.cameras) check(camera.ride, camera.key() + ".ride");
+  for (const ImuScenario& imu : scenario.imus) check(imu.ride, imu.key() + ".ride");
+  for (const SensorItem& sensor : scenario.sensors) check(sensor.ride, sensor.key() + ".ride");
+  find_felt_links(scenario, robots);
+}
+
 std::vector<FeltLinks> find_felt_links(const Scenario& scenario, const std::vector<MissionRobot>& robots) {
   const std::vector<std::string> names = robot_names(scenario.robots);
   std::vector<FeltLinks> felt;

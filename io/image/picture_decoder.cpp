@@ -21,37 +21,20 @@ void check_picture_size(std::uint64_t width, std::uint64_t height) {
 
 namespace {
 
-// libpng's simple reader takes 16 bits for linear light, which no program writes.
-RgbaImage decode_png_of_16_bits(std::string_view bytes) {
+// Values as they are stored: glTF tells renderers to ignore what an image says of its colour space (gAMA, cHRM, iCCP).
+RgbaImage decode_png(std::string_view bytes) {
   const PngPixels png = read_png_pixels(bytes);
   RgbaImage out{png.width, png.height, {}};
   const std::size_t channels = std::size_t(png.channels);
-  const auto rounded = [](std::uint16_t v) { return std::uint8_t((std::uint32_t(v) * 255 + 32767) / 65535); };
+  const auto rounded = [&png](std::uint16_t v) {
+    return png.bits == 16 ? std::uint8_t((std::uint32_t(v) * 255 + 32767) / 65535) : std::uint8_t(v);
+  };
   out.rgba.reserve(png.values.size() / channels * 4);
   for (std::size_t i = 0; i < png.values.size(); i += channels) {
     const std::uint16_t* p = &png.values[i];
     for (std::size_t k = 0; k < 3; ++k) out.rgba.push_back(rounded(p[channels >= 3 ? k : 0]));
     out.rgba.push_back(channels % 2 == 0 ? rounded(p[channels - 1]) : std::uint8_t(255));
   }
-  return out;
-}
-
-RgbaImage decode_png(std::string_view bytes) {
-  struct Reading {
-    png_image image{};
-    ~Reading() { png_image_free(&image); }
-  } reading;
-  png_image& png = reading.image;
-  png.version = PNG_IMAGE_VERSION;
-  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))
-    throw RunError(std::string("is a damaged PNG: ") + png.message);
-  check_picture_size(png.width, png.height);
-  if (png.format & PNG_FORMAT_FLAG_LINEAR) return decode_png_of_16_bits(bytes);
-  png.format = PNG_FORMAT_RGBA;
-  RgbaImage out{int(png.width), int(png.height), {}};
-  out.rgba.resize(PNG_IMAGE_SIZE(png));
-  if (!png_image_finish_read(&png, nullptr, out.rgba.data(), 0, nullptr))
-    throw RunError(std::string("is a damaged PNG: ") + png.message);
   return out;
 }
 

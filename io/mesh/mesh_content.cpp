@@ -3,24 +3,18 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "io/import/imported_scene.h"
 #include "io/import/uri.h"
+#include "io/mesh_formats/gltf_document.h"
+#include "kernel/base/error.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/read_file.h"
 #include "kernel/base/tables/text_table.h"
 
 namespace rubble {
 namespace {
-
-// Of its first chunk: a head of 12 bytes, the chunk's length in 4 and its kind in 4.
-std::string json_of_glb(const std::string& text) {
-  if (text.size() < 20) return "";
-  std::size_t length = 0;
-  for (std::size_t i = 0; i < 4; ++i) length |= std::size_t(std::uint8_t(text[12 + i])) << 8 * i;
-  return text.substr(20, length);
-}
 
 std::string mesh_extension(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
@@ -55,19 +49,18 @@ class FilesBeside {
   std::vector<std::string> files_;
 };
 
-void add_gltf(const std::string& text, bool is_glb, MeshContent content, FilesBeside& files) {
-  const nlohmann::json json = nlohmann::json::parse(is_glb ? json_of_glb(text) : text, nullptr, false);
-  if (!json.is_object()) return;
+// What is no glTF names none: the reader says why.
+void add_gltf(const std::string& path, MeshContent content, FilesBeside& files) try {
+  ImportedScene scene;
+  const GltfDocument document(path, scene);
   for (const char* list : {"buffers", "images"}) {
     if (content == MeshContent::geometry && list == std::string_view("images")) continue;
-    const auto all = json.find(list);
-    if (all == json.end() || !all->is_array()) continue;
-    for (const nlohmann::json& entry : *all) {
-      if (!entry.is_object() || !entry.contains("uri") || !entry["uri"].is_string()) continue;
-      const std::string uri = entry["uri"];
-      if (uri.compare(0, 5, "data:") != 0) files.add(uri);
+    for (std::size_t i = 0; i < document.count(list); ++i) {
+      const std::string uri = gltf_text(document.find(list, std::int64_t(i), "the file"), "uri");
+      if (!uri.empty() && uri.compare(0, 5, "data:") != 0) files.add(uri);
     }
   }
+} catch (const InputError&) {
 }
 
 // each(keyword, rest) of every line.
@@ -112,7 +105,7 @@ void add_dae(const std::string& text, FilesBeside& files) {
 std::vector<std::string> list_files_of_mesh(const std::string& path, MeshContent content) {
   FilesBeside files(path);
   const std::string extension = mesh_extension(path);
-  if (extension == ".gltf" || extension == ".glb") add_gltf(read_file(path), extension == ".glb", content, files);
+  if (extension == ".gltf" || extension == ".glb") add_gltf(path, content, files);
   if (content == MeshContent::geometry) return files.take();
   if (extension == ".dae") add_dae(read_file(path), files);
   if (extension == ".obj") {

@@ -212,6 +212,9 @@ class AssimpReader {
     float share = 0;
     if (from.Get(AI_MATKEY_ROUGHNESS_FACTOR, share) == aiReturn_SUCCESS) material.roughness = share;
     if (from.Get(AI_MATKEY_METALLIC_FACTOR, share) == aiReturn_SUCCESS) material.metalness = share;
+    aiColor3D light(0, 0, 0);
+    if (from.Get(AI_MATKEY_COLOR_EMISSIVE, light) == aiReturn_SUCCESS && !light.IsBlack())
+      material.left_out.push_back("light that surfaces give is not drawn");
     aiString mode;
     if (from.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == aiReturn_SUCCESS) material.alpha_of_image = std::string(mode.C_Str()) != "OPAQUE";
     material.albedo = find_texture(from, aiTextureType_BASE_COLOR);

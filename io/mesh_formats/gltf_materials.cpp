@@ -74,8 +74,17 @@ class MaterialReader {
     material.roughness_map = material.metalness_map = read_texture(rough, "metallicRoughnessTexture");
     material.normals = read_texture(from, "normalTexture");
     if (gltf_member(from, "emissiveTexture")) material.left_out.push_back("images of light that surfaces give are not drawn");
+    if (gives_light(from)) material.left_out.push_back("light that surfaces give is not drawn");
+    if (const Json* bumps = gltf_member(from, "normalTexture"); bumps && gltf_number(*bumps, "scale", 1) != 1)
+      material.left_out.push_back("the scale of the image of normals is not applied");
     read_extensions(from, material);
     return material;
+  }
+
+  static bool gives_light(const Json& from) {
+    const Json* factor = gltf_member(from, "emissiveFactor");
+    return factor && factor->is_array() &&
+           std::any_of(factor->begin(), factor->end(), [](const Json& share) { return share.get<float>() > 0; });
   }
 
   static void read_colour(const Json& from, const char* name, ImportedMaterial& material) {

@@ -56,16 +56,27 @@ std::string without_quotes(std::string_view name) {
   return std::string(name);
 }
 
+// A comment begins at a word with a '#'. A name may hold one within a word.
+std::string_view without_comment(std::string_view rest) {
+  for (std::size_t at = rest.find('#'); at != std::string_view::npos; at = rest.find('#', at + 1))
+    if (at == 0 || rest[at - 1] == ' ' || rest[at - 1] == '\t') return trimmed(rest.substr(0, at));
+  return trimmed(rest);
+}
+
+std::string plain_name(std::string_view name) { return without_quotes(without_comment(name)); }
+
 }  // namespace
 
 void MtlReader::read_libraries(std::string_view names) {
-  const std::string whole = without_quotes(trimmed(names));
-  if (read_file_of(whole)) return;
-  const std::vector<std::string_view> words = split_words(names);
-  if (words.size() == 1) return scene_.note("the material file " + printable(whole) + " was not found beside the mesh; its colours are left out");
+  if (read_file_of(without_quotes(trimmed(names))) || read_file_of(plain_name(names))) return;
+  std::vector<std::string_view> words = split_words(without_comment(names));
+  if (words.size() == 1) words[0] = without_comment(names);
   for (const std::string_view word : words)
-    if (!read_file_of(without_quotes(word)))
-      scene_.note("the material file " + printable(word) + " was not found beside the mesh; its colours are left out");
+    if (!read_file_of(without_quotes(word))) {
+      lost_ = true;
+      scene_.note("the material file " + printable(without_quotes(word)) +
+                  " was not found beside the mesh; its colours are left out");
+    }
 }
 
 bool MtlReader::read_file_of(const std::string& name) {
@@ -73,12 +84,15 @@ bool MtlReader::read_file_of(const std::string& name) {
   std::replace(path.begin(), path.end(), '\\', '/');
   const fs::path folder = fs::path(path_).parent_path();
   std::error_code failed;
-  for (const fs::path& tried : {folder / path, folder / fs::path(path).filename()}) {
+  for (const fs::path& below : {fs::path(path), fs::path(path).filename()}) {
+    const fs::path tried = folder / below;
     if (!fs::is_regular_file(tried, failed)) continue;
     check_may_read(tried.string(), {path_, 0, "mtllib", "", "", "", ""});
+    library_folder_ = below.has_parent_path() ? below.parent_path().generic_string() + "/" : "";
     try {
       read(name, read_file(tried.string(), kLargestLibrary));
     } catch (const InputError& error) {
+      lost_ = true;
       scene_.note("the material file " + printable(name) + " cannot be read: " + error.what());
     }
     return true;
@@ -103,6 +117,7 @@ void MtlReader::read_line(std::string_view keyword, std::string_view rest, const
     const std::string name(rest);
     const auto [found, is_new] = numbers_.try_emplace(name, int(scene_.materials.size()));
     current_ = found->second;
+    defined_.insert(current_);
     ImportedMaterial fresh;
     fresh.name = name, fresh.colour = {kDefaultGrey, kDefaultGrey, kDefaultGrey};
     if (is_new)
@@ -213,7 +228,14 @@ std::string MtlReader::take_options(std::string_view rest, TexturePlace& where, 
   return without_quotes(rest);
 }
 
-int MtlReader::image_of(const std::string& name) {
+// The image lies beside its library where there is none of that name beside the mesh.
+int MtlReader::image_of(const std::string& written) {
+  const fs::path folder = fs::path(path_).parent_path();
+  std::string name = written, below = library_folder_ + written;
+  std::replace(below.begin(), below.end(), '\\', '/');
+  std::error_code failed;
+  if (!library_folder_.empty() && !fs::exists(folder / written, failed) && fs::is_regular_file(folder / below, failed))
+    name = below;
   for (std::size_t i = 0; i < scene_.images.size(); ++i)
     if (scene_.images[i].name == name) return int(i);
   scene_.images.push_back({name, nullptr, ""});
@@ -228,6 +250,24 @@ int MtlReader::find(const std::string& name) {
     scene_.materials.back().colour = {kDefaultGrey, kDefaultGrey, kDefaultGrey};
   }
   return found->second;
+}
+
+void MtlReader::define_missing(bool vertex_colours) {
+  for (const auto& [name, number] : numbers_) {
+    if (defined_.count(number)) continue;
+    ImportedMaterial& material = scene_.materials[std::size_t(number)];
+    const auto same = std::find_if(numbers_.begin(), numbers_.end(), [&, &wanted = name](const auto& other) {
+      return defined_.count(other.second) && plain_name(other.first) == plain_name(wanted);
+    });
+    if (same != numbers_.end()) {
+      material = scene_.materials[std::size_t(same->second)];
+      continue;
+    }
+    if (vertex_colours) material.colour = {1, 1, 1};
+    const auto is_drawn = [of = number](const ImportedMesh& mesh) { return mesh.material == of; };
+    if (name != kDefaultMaterial && !lost_ && std::any_of(scene_.meshes.begin(), scene_.meshes.end(), is_drawn))
+      scene_.note("the material \"" + printable(plain_name(name)) + "\" is in no material file; its colour is left out");
+  }
 }
 
 }  // namespace rubble

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 
 #include "io/import/imported_scene.h"
@@ -16,8 +17,11 @@ class MtlReader {
 
   // names: the rest of an `mtllib` line: one name, maybe with blanks, or several.
   void read_libraries(std::string_view names);
-  // Of `usemtl`. A material that no library has is grey.
+  // Of `usemtl`.
   int find(const std::string& name);
+  // After the last line. A material that no library has is that of the same name without quotes and comment; otherwise it
+  // is grey, or white below colours of vertices, and a note names it unless its library is lost.
+  void define_missing(bool vertex_colours);
 
  private:
   bool read_file_of(const std::string& name);
@@ -33,6 +37,9 @@ class MtlReader {
   std::string path_;
   ImportedScene& scene_;
   std::map<std::string, int> numbers_;  // of materials, by name
+  std::set<int> defined_;               // materials that a library has
+  std::string library_folder_;          // of the library that is read, from the folder of the OBJ file; "sub/"
+  bool lost_ = false;                   // a library was not found, or cannot be read
   int current_ = -1;
 };
 

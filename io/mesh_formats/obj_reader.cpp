@@ -27,6 +27,7 @@ class ObjReader {
       if (!keyword.empty() && keyword[0] != '#') read_line(keyword, rest);
     }
     drop_partial_attributes();
+    materials_.define_missing(!vertex_colours_.empty());
     return std::move(scene_);
   }
 

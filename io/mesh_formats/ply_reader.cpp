@@ -11,6 +11,7 @@
 #include "io/import/polygon.h"
 #include "kernel/base/error.h"
 #include "kernel/base/number_text.h"
+#include "kernel/base/tables/text_table.h"
 
 namespace rubble {
 namespace {
@@ -38,7 +39,10 @@ struct Element {
 class PlyFile {
  public:
   explicit PlyFile(const std::string& path)
-      : path_(path), bytes_(read_whole_file(path)), rest_(bytes_) {}
+      : path_(path), bytes_(read_whole_file(path)), rest_(skip_byte_order_mark(bytes_)) {
+    const std::size_t end = rest_.find_first_of("\r\n");  // as the first line ends: CR, LF or CRLF
+    if (end != std::string_view::npos && rest_[end] == '\r' && rest_.substr(end, 2) != "\r\n") line_end_ = '\r';
+  }
 
   [[noreturn]] void refuse(const std::string& message, const std::string& expected,
                            const std::string& found) const {
@@ -49,7 +53,7 @@ class PlyFile {
 
   // Without its end; the file ends early where there is none.
   std::string line() {
-    const std::size_t end = rest_.find('\n');
+    const std::size_t end = rest_.find(line_end_);
     if (rest_.empty()) refuse("the file ends early", "a line", "nothing");
     std::string text(rest_.substr(0, end));
     rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
@@ -79,8 +83,8 @@ class PlyFile {
   // Text has a line for each item: what a line has beyond its properties is no part of the next item. Text with fewer lines
   // than items is one list of numbers.
   void begin_items(std::uint64_t count) {
-    const std::uint64_t ends = std::uint64_t(std::count(rest_.begin(), rest_.end(), '\n'));
-    has_lines_ = !binary && ends + (rest_.empty() || rest_.back() == '\n' ? 0 : 1) >= count;
+    const std::uint64_t ends = std::uint64_t(std::count(rest_.begin(), rest_.end(), line_end_));
+    has_lines_ = !binary && ends + (rest_.empty() || rest_.back() == line_end_ ? 0 : 1) >= count;
   }
   void end_item() {
     if (!has_lines_ || word_ >= words_.size()) return;
@@ -132,6 +136,7 @@ class PlyFile {
 
   std::string path_, bytes_;
   std::string_view rest_;
+  char line_end_ = '\n';
   int line_ = 0;
   std::vector<std::string> words_;
   std::size_t word_ = 0;
@@ -192,7 +197,7 @@ void add_property(PlyFile& file, Element& element, std::istringstream& words) {
 }
 
 std::vector<Element> read_header(PlyFile& file, PlyMesh& mesh) {
-  if (file.line() != "ply") file.refuse("not a PLY file", "ply", "something else");
+  if (trimmed(file.line()) != "ply") file.refuse("not a PLY file", "ply", "something else");
   std::vector<Element> elements;
   while (true) {
     std::istringstream words(file.line());

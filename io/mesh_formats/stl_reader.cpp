@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "io/import/text_scan.h"
 #include "kernel/base/read_file.h"
@@ -63,14 +64,20 @@ void read_binary(const std::string& path, std::string_view bytes, ImportedScene&
   }
 }
 
+// What some programs put behind the last line of a text.
+constexpr std::string_view kPadding("\0\x1a \t\r\n", 6);
+
+bool is_comment(std::string_view line) { return take_word(line).substr(0, 1) == "#"; }
+
 class TextReader {
  public:
   TextReader(const std::string& path, std::string_view text, ImportedScene& scene)
-      : path_(path), lines_(text, false), scene_(scene) {}
+      : path_(path), lines_(text.substr(0, text.find_last_not_of(kPadding) + 1), false), scene_(scene) {}
 
   void read() {
     while (lines_.next()) {
       std::string_view rest = lines_.line();
+      if (is_comment(rest)) continue;
       for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) take(lower(word), rest);
     }
     if (corner_ > 0) refuse("a facet of less than three corners");
@@ -90,7 +97,7 @@ class TextReader {
       object_ += word == "solid", open_ = word == "solid";
       rest = {};  // a name
     } else if (word == "normal") {
-      for (int i = 0; i < 3; ++i) normal_[i] = float(number(rest));
+      for (int i = 0; i < 3; ++i) normal_[i] = float(direction(rest));
     } else if (word == "vertex") {
       for (int i = 0; i < 3; ++i) corners_[std::size_t(corner_)][i] = number(rest);
       if (in_facet_ && full_) refuse("a facet of more than three corners: export the mesh as triangles");
@@ -106,6 +113,15 @@ class TextReader {
     } else if (word != "outer") {
       refuse("unknown word \"" + printable(word) + "\"; STL has facet, normal, outer loop, vertex, endloop, endfacet");
     }
+  }
+
+  // Windows writes "-1.#IND" for what is no number: the face has the normal of its corners then.
+  double direction(std::string_view& rest) {
+    std::string_view after = rest;
+    const std::string word = lower(take_word(after));
+    if (word.find(".#") == std::string::npos && word.find("nan(") == std::string::npos) return number(rest);
+    rest = after;
+    return std::numeric_limits<double>::quiet_NaN();
   }
 
   double number(std::string_view& rest) {
@@ -131,9 +147,12 @@ bool is_binary(std::string_view bytes) {
   const std::uint64_t size = kStlHeader + kStlFacet * std::uint64_t(number_from<std::uint32_t>(bytes.data() + 80));
   if (bytes.size() == size) return true;
   std::string_view text = skip_byte_order_mark(bytes.substr(0, 512));
+  LineScanner lines(text, false);
+  while (lines.next() && (trimmed(lines.line()).empty() || is_comment(lines.line()))) continue;
+  text = lines.line();
   const std::string_view word = take_word(text);
   if (word != "solid" && word != "SOLID" && word != "Solid") return true;
-  return bytes.substr(0, 512).find('\0') != std::string_view::npos;
+  return bytes.substr(0, bytes.find_last_not_of(kPadding) + 1).substr(0, 512).find('\0') != std::string_view::npos;
 }
 
 }  // namespace

@@ -96,17 +96,20 @@ std::string last_words(std::string text) {
   return printable(text);
 }
 
-bool needs_xacro(const XmlElement& element, const std::string& prefix) {
+// in_gazebo: an attribute in <gazebo> is for Gazebo's plugins, which may expand "$(env HOME)" themselves.
+bool needs_xacro(const XmlElement& element, const std::string& prefix, bool in_gazebo) {
   if (element.name.compare(0, prefix.size(), prefix) == 0) return true;
+  if (in_gazebo) return false;
   for (const auto& attribute : element.attributes)
     if (attribute.second.find("${") != std::string::npos || attribute.second.find("$(") != std::string::npos) return true;
   return false;
 }
 
-const XmlElement* find_in(const XmlElement& element, const std::string& prefix) {
-  if (needs_xacro(element, prefix)) return &element;
+const XmlElement* find_in(const XmlElement& element, const std::string& prefix, bool in_gazebo = false) {
+  in_gazebo = in_gazebo || element.name == "gazebo";
+  if (needs_xacro(element, prefix, in_gazebo)) return &element;
   for (const XmlElement& child : element.children)
-    if (const XmlElement* found = find_in(child, prefix)) return found;
+    if (const XmlElement* found = find_in(child, prefix, in_gazebo)) return found;
   return nullptr;
 }
 

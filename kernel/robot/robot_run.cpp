@@ -52,8 +52,6 @@ std::string text_of(const char* format, double a, double b, double c) {
 
 }  // namespace
 
-std::int64_t steps_between(double hz, double step) { return std::max(std::int64_t(1), std::int64_t(1 / (hz * step) + 0.5)); }
-
 RobotRun::RobotRun(const Pile& pile, const PileState& state, const RobotRunOptions& options)
     : options_(options),
       laid_(pile),

@@ -12,6 +12,7 @@
 #include "kernel/model/pile_state.h"
 #include "kernel/model/robot.h"
 #include "kernel/model/track.h"
+#include "kernel/robot/step_rate.h"
 #include "kernel/settling/track_recorder.h"
 #include "kernel/world/world.h"
 
@@ -24,12 +25,6 @@ struct RobotSense {
   std::vector<RobotContact> contacts;  // of its links, in this step
 };
 using RobotController = std::function<RobotCommand(const RobotSense&)>;
-
-inline constexpr double kUsualRobotStep = 1.0 / 240;  // unit: s
-
-// What a rate comes to in steps of the simulation: something happens after whole steps. unit: Hz, s
-std::int64_t steps_between(double hz, double step);
-inline double used_rate(double hz, double step) { return 1 / (double(steps_between(hz, step)) * step); }
 
 struct RobotRunOptions {
   double duration = 10;         // unit: s; range: above 0

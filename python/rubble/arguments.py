@@ -16,14 +16,15 @@ def mistake(key: str, text: str) -> _core.InputError:
     return error
 
 
-def whole(key: str, value: Any, least: int) -> int:
+def whole(key: str, value: Any, least: int, most: Optional[int] = None) -> int:
     """A whole number, also one of numpy."""
     try:
         found = None if isinstance(value, (bool, np.bool_)) else operator.index(value)
     except TypeError:
         found = None
-    if found is None or found < least:
-        raise mistake(key, f"expected a whole number of at least {least}: found {value!r}")
+    if found is None or found < least or (most is not None and found > most):
+        upto = "" if most is None else f", at most {most}"
+        raise mistake(key, f"expected a whole number of at least {least}{upto}: found {value!r}")
     return found
 
 

@@ -18,7 +18,7 @@ from typing import Any, Iterable, Iterator, Mapping, Sequence, Union
 
 from . import _core
 from .arguments import whole
-from .mission_text import MissionText, Path, path_text, source_text, started_with
+from .mission_text import MissionText, Path, check_seed, path_text, source_text, started_with
 from .program import call, options
 
 _FIXED = ("seed", "status", "state_hash", "bytes", "variant")
@@ -176,6 +176,8 @@ def batch(mission: Union[MissionText, Path], seeds: Union[str, Iterable[int]], o
     out, vary = path_text(out, "out"), _core._overrides(vary, "vary")
     overrides, assets = _core._overrides(overrides), _core._folders(assets)
     words = ["--seeds", seeds if isinstance(seeds, str) else ",".join(str(whole("seeds", seed, 0)) for seed in seeds)]
+    for seed in words[1].split(","):
+        check_seed(mission, None, [f"seed={seed}"])
     for text in vary:
         words += ["--vary", text]
     words += ["--samples", str(samples)] if samples else []

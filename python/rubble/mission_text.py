@@ -1,7 +1,9 @@
 """What the classes of missions.py have in common: the text of a mission, in Lua, and the way back."""
 from __future__ import annotations
 
+import copy
 import dataclasses
+import difflib
 import json
 import math
 import os
@@ -67,6 +69,14 @@ class Keys:
     """A table of a mission. A key that is None is not given."""
     _parts: ClassVar[dict[str, tuple[str, Type["Keys"]]]] = {}
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_") and not hasattr(type(self), name):
+            known = [f.name for f in dataclasses.fields(self)]  # type: ignore[arg-type]
+            near = difflib.get_close_matches(name, known, 1)
+            hint = f"; did you mean `{near[0]}`?" if near else ""
+            raise AttributeError(f"{type(self).__name__} has no key `{name}`{hint}")
+        super().__setattr__(name, value)
+
     def given(self) -> dict[str, Any]:
         """The keys that are given, by their names in Lua."""
         rows = ((f.name, getattr(self, f.name)) for f in dataclasses.fields(self))  # type: ignore[arg-type]
@@ -93,6 +103,7 @@ class Keys:
 
 class MissionText(Keys):
     """What a mission can do besides holding its keys."""
+    _drawn_seed: Optional[int] = None  # of a loaded script whose keys depend on its seed
 
     def to_lua(self) -> str:
         """The script of the mission, as Lua."""
@@ -105,9 +116,78 @@ class MissionText(Keys):
 
     @classmethod
     def load(cls: Type[_Table], script: Path, overrides: Sequence[str] = ()) -> _Table:
-        """The mission of a script: a file, or the text of one. All of its keys are given, also those that had their defaults."""
+        """The mission of a script: a file, or the text of one. All of its keys are given, also those that had their defaults,
+        except those that nothing reads. The script is not run again: what it computed from its seed, such as numbers of
+        rubble.random, stays. settle(), run() and batch() then refuse other seeds; with the script itself they take any."""
         with script_of(script) as path:
-            return cls.from_dict(_without_none(json.loads(_core.check_mission(path, None, overrides))))
+            whole = json.loads(_core.check_mission(path, None, overrides))
+            drawn = _depends_on_seed(path, whole, overrides)
+        mission = cls.from_dict(whole)
+        if drawn:
+            mission._drawn_seed = whole["seed"]  # type: ignore[attr-defined]
+        return mission
+
+    @classmethod
+    def from_dict(cls: Type[_Table], table: Mapping[str, Any]) -> _Table:
+        """From a table as JSON has it, such as check() returns. A default that nothing reads is left out. Raises InputError for
+        a key that missions do not have."""
+        table = _without_none(table)
+        build = super().from_dict  # type: ignore[misc]
+        try:
+            return build(_without_idle(build, table))
+        except _core.InputError:
+            return build(table)
+
+
+def _depends_on_seed(path: str, whole: Mapping[str, Any], overrides: Sequence[str]) -> bool:
+    """Whether the script states other keys for another seed."""
+    if any(text.startswith("seed=") for text in overrides):
+        overrides = [text for text in overrides if not text.startswith("seed=")]
+    try:
+        other = json.loads(_core._scenario(path, whole["seed"] + 1 if whole["seed"] < 2**62 else 0, overrides)[0])
+    except _core.InputError:
+        return True
+    return {**other, "seed": whole["seed"]} != whole
+
+
+def _without_idle(build: Any, table: Mapping[str, Any]) -> Mapping[str, Any]:
+    """The table of a mission without the keys that nothing reads, as far as they have their defaults."""
+    with script_of(build(table)) as path:
+        whole, idle = _core._scenario(path)
+
+    def same(changed: Mapping[str, Any]) -> bool:
+        with script_of(build(changed)) as path:
+            return _core._scenario(path)[0] == whole
+
+    pruned, removed = copy.deepcopy(dict(table)), []
+    for key in idle:
+        *way, last = [int(index) - 1 if index else name for name, index in re.findall(r"([^.\[\]]+)|\[(\d+)\]", key)]
+        try:
+            there: Any = pruned
+            for part in way:
+                there = there[part]
+            removed.append((there, last, there.pop(last)))
+        except (LookupError, TypeError, AttributeError):
+            continue  # of another name for it
+    if not same(pruned):
+        for there, last, kept in removed:
+            there[last] = kept
+        for there, last, kept in removed:
+            del there[last]
+            if not same(pruned):
+                there[last] = kept
+    return pruned
+
+
+def check_seed(mission: Any, seed: Optional[int], overrides: Sequence[str] = ()) -> None:
+    """Raises InputError for another seed than that of a mission that its script computed from one."""
+    drawn = mission._drawn_seed if isinstance(mission, MissionText) else None
+    if drawn is None:
+        return
+    asked = [text[len("seed="):] for text in overrides if text.startswith("seed=")] + ([] if seed is None else [str(seed)])
+    if any(text != str(drawn) for text in asked):
+        raise _mistake("seed", "the script of this mission drew random numbers, and is not run again",
+                       f"{drawn}, or the script itself instead of Mission.load(script)")
 
 
 def _without_none(value: Any) -> Any:
@@ -155,5 +235,6 @@ def settle(mission: Union[MissionText, Path], seed: Optional[int] = None, overri
     """Settles the pile of a mission: of an object, a file, or the text of a script. overrides: "key=value", as rubble run
     --set. seed: 0 to 2^63 - 1. threads: 0 to 256; 0: one per processor. Files that a text names are looked for in its temporary
     folder: name them by whole paths."""
+    check_seed(mission, seed, overrides)
     with script_of(mission) as script:
         return _core.settle(script, seed, overrides, threads)

@@ -9,7 +9,7 @@ import sys
 from typing import Any, NoReturn, Optional, Sequence, Union
 
 from . import _core
-from .mission_text import MissionText, Path, path_text, started_with
+from .mission_text import MissionText, Path, check_seed, path_text, started_with
 
 _HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -53,6 +53,7 @@ def run(mission: Union[MissionText, Path], out: Path, seed: Optional[int] = None
     """Runs a mission as `rubble run` does, in a process of its own, and gives its manifest. settle: only its pile, as `rubble
     settle`."""
     out = path_text(out, "out")
+    check_seed(mission, seed, overrides)
     with started_with(mission) as (folder, script):
         call(["settle" if settle else "run", script, "--out", os.path.abspath(out), "--quiet",
               *options(seed, overrides, assets, threads)], folder)

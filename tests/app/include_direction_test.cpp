@@ -156,7 +156,8 @@ const Allowed kRobots{{"scripting/robots/",
 const Allowed kScripting = stack(
     {"scripting/values/", "scripting/trajectory/", "scripting/schema/", "scripting/files/", "scripting/sandbox/",
      "scripting/packs/", "scripting/sky/", "scripting/sensors/", "scripting/robots/", "scripting/scenario/", "scripting/reference/", "scripting/"},
-    {"kernel/base/", "kernel/model/fines.h", "kernel/model/pile.h", "kernel/model/surroundings.h", "kernel/settling/settle.h",
+    {"kernel/base/", "kernel/model/fines.h", "kernel/model/pile.h", "kernel/model/surroundings.h", "kernel/robot/step_rate.h",
+     "kernel/settling/settle.h",
      "render/scene/",
      "render/streams/image_streams.h", "io/image/data_picture.h"});
 

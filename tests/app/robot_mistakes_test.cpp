@@ -76,6 +76,20 @@ TEST(RobotMistakes, ControllersThatNeverReturnOrAskTooMuchAreMistakesWithTheirLi
                {"return { joints = { 1, 2, 3, 4 } }",
                 "robots[1].control: joints: the motor of front_left_wheel_joint turns at a speed and holds no position, at t = 0 s"},
                {"return { flippers = { 1 } }", "robots[1].control: flippers: unknown key"},
+               {"return { speeds = { 3 } }",
+                "robots[1].control: speeds: not as many values as the robot has motors at joints, at t = 0 s: expected 4: "
+                "front_left_wheel_joint, front_right_wheel_joint, rear_left_wheel_joint, rear_right_wheel_joint, found 1"},
+               {"return { torques = { 1, 1, 1, 1, 1 } }", "found 5"},
+               {"return { speeds = { 3, 3, 3, 3 }, torques = { 2, 2, 2, 2 } }",
+                "robots[1].control: torques: contradicts speeds, at t = 0 s: expected one of both, found both"},
+               {"return { linear = 0.5, speeds = { 0, 0, 0, 0 } }", "robots[1].control: speeds: contradicts linear"},
+               {"return { angular = 0.5, speeds = { 1 }, joint_names = { \"rear_left_wheel_joint\" } }",
+                "robots[1].control: speeds: contradicts angular"},
+               {"return { speeds = { 1, 2 }, joint_names = { \"rear_left_wheel_joint\" } }",
+                "robots[1].control: joint_names: not as many as speeds, at t = 0 s: expected 2 names, found 1"},
+               {"return { speeds = { 1 }, joint_names = { \"tail\" } }",
+                "robots[1].control: joint_names: the robot has no joint of this name with a motor"},
+               {"return { joint_names = { \"rear_left_wheel_joint\" } }", "joint_names: names joints that are asked for nothing"},
                {"rubble.reject(\"me\", \"key\", \"a number\", 1)", "expected a number"},
                {"error(\"no idea\")", "robots[1].control: no idea, at t = 0 s"}};
   for (const auto& c : cases) {
@@ -87,6 +101,89 @@ TEST(RobotMistakes, ControllersThatNeverReturnOrAskTooMuchAreMistakesWithTheirLi
   }
 }
 
+TEST(RobotMistakes, ControllersOfOtherRobotsAreRefusedWhatTheyCannotDo) {
+  const ScratchFolder scratch;
+  const struct {
+    const char *robot, *answer, *expected;
+  } cases[] = {
+      {"crawler {", "flippers = { 0.8 }", "robots[1].control: flippers: not as many values as the robot has motors at joints, at t = 0 s: "
+                                        "expected 4: front_left_flipper_joint"},
+      {"crawler {", "flippers = { 1, 1, 1, 1 }, joints = { 0, 0, 0, 0 }", "robots[1].control: joints: contradicts flippers"},
+      {"snake { modules = 3,", "joints = { 0.5 }", "expected 2: joint_1, joint_2, found 1"},
+      {"snake {", "linear = 0.5", "robots[1].control: linear: unknown key"},
+  };
+  for (const auto& c : cases) {
+    const Outcome run = run_mission(scratch, std::string("return rubble.mission { pile = { layers = 0 }, robots = {\n  rubble.robot.") +
+                                                 c.robot + " position = { 0, 0, 0.06 },\n  control = function() return { " + c.answer +
+                                                 " } end } } }\n");
+    EXPECT_EQ(run.exit_code, 1) << c.robot << c.answer;
+    EXPECT_NE(run.err.find(c.expected), std::string::npos) << c.robot << c.answer << "\n" << run.err;
+  }
+}
+
+// Belts are no motors at joints, and named joints leave the others alone.
+TEST(RobotMistakes, AFunctionMayAskBeltsAndSomeOfTheMotors) {
+  const ScratchFolder scratch;
+  const char* const answers[] = {"linear = 0.2, joints = { 0.3, 0.4 }, joint_names = { \"front_left_flipper_joint\", "
+                                 "\"rear_right_flipper_joint\" }",
+                                 "linear = 0.2, speeds = { 0.1, 0.1, 0, 0 }"};
+  for (const std::string answer : answers) {
+    const Outcome run = run_mission(scratch, "return rubble.mission { pile = { layers = 0 }, robots = { rubble.robot.crawler { name = \"r\",\n"
+                                             "  position = { 0, 0, 0.01 }, control = function() return { " + answer + " } end } },\n"
+                                             "  robot_run = { duration = 2 }, camera = { width = 16, height = 16 },\n"
+                                             "  trajectory = { rate_hz = 0.1, ride = { robot = \"r\" } }, outputs = { bag = false } }\n");
+    EXPECT_EQ(run.exit_code, 0) << answer << "\n" << run.err;
+  }
+}
+
+// A turn that belts or wheels have no speed left for; straight ahead there is none to lose.
+TEST(RobotMistakes, ATwistBeyondTheSpeedOfTheSidesIsSaidOnce) {
+  const ScratchFolder scratch;
+  const auto said = [&](const std::string& robot, const std::string& drive) {
+    return run_mission(scratch, "return rubble.mission { pile = { layers = 0 }, robots = { rubble.robot." + robot + " { name = \"r\",\n"
+                                "  position = { 0, 0, 0.01 }, " + drive + " } }, robot_run = { duration = 0.2 },\n"
+                                "  camera = { width = 16, height = 16 }, trajectory = { rate_hz = 0.1, ride = { robot = \"r\" } },\n"
+                                "  outputs = { bag = false } }\n").err;
+  };
+  const std::string sentence = "linear = 1 with angular = 1 asks for 1.199 m/s on one side, which reaches 0.6 m/s";
+  EXPECT_NE(said("crawler", "drive = { { linear = 1, angular = 1 } }").find("robots[1].drive[1]: " + sentence), std::string::npos);
+  const std::string controlled = said("crawler", "control = function() return { linear = 1, angular = 1 } end");
+  const std::size_t first = controlled.find("robots[1].control: " + sentence);
+  EXPECT_NE(first, std::string::npos) << controlled;
+  EXPECT_EQ(controlled.find(sentence, first + 30), std::string::npos) << controlled;
+  EXPECT_NE(said("rover", "drive = { { linear = 1, angular = 1 } }").find("which reaches"), std::string::npos);
+  for (const char* kept : {"drive = { { linear = 1 } }", "drive = { { angular = 9 } }", "drive = { { linear = 0.3, angular = 0.5 } }"})
+    EXPECT_EQ(said("crawler", kept).find("which reaches"), std::string::npos) << kept;
+}
+
+// What the model of a robot says against the mission needs no pile.
+TEST(RobotMistakes, AreFoundBeforeThePileSettles) {
+  const ScratchFolder scratch;
+  const struct {
+    const char *robot, *more, *expected;
+  } cases[] = {
+      {"rubble.robot.snake { drive = { { linear = 0.4 } } }", "", "m.lua:3: robots[1].drive[1].linear: this robot has neither"},
+      {"rubble.robot.rover { drive = { { joints = { 1, 1, 1, 1 } } } }", "", "m.lua:3: robots[1].drive[1].joints: the motor of"},
+      {"rubble.robot.rover { start = { tail = 1 } }", "", "m.lua:3: robots[1].start: the robot has no such joint"},
+      {"rubble.robot.rover { name = \"r\" }", "trajectory = { ride = { robot = \"r\", link = \"mast\" } }",
+       "m.lua:4: trajectory.ride.link: the robot has no such link"},
+      {"rubble.robot.rover { name = \"r\" }", "imus = { i = { ride = { robot = \"r\", link = \"mast\" } } }",
+       "m.lua:4: imus.i.ride.link: the robot has no such link"},
+  };
+  for (const auto& c : cases) {
+    write_file(scratch / "m.lua", std::string("return rubble.mission {\n  pile = { layers = 3, pieces_per_layer = 2000 },\n  robots = { ") +
+                                      c.robot + " },\n  " + c.more + " }\n");
+    const std::string mission = scratch / "m.lua", out = " --out " + (scratch / "out");
+    for (const std::string& command : {"check " + mission, "settle " + mission + out, "run " + mission + out,
+                                       "batch " + mission + " --seeds 1..2" + out}) {
+      const Outcome run = run_rubble(command);
+      EXPECT_EQ(run.exit_code, 1) << command;
+      EXPECT_NE(run.err.find(c.expected), std::string::npos) << command << "\n" << run.err;
+      EXPECT_FALSE(std::filesystem::exists(scratch / "out/unfinished")) << command;
+    }
+  }
+}
+
 TEST(RobotMistakes, CommandsOfOtherRobotsAreMistakes) {
   const ScratchFolder scratch;
   const struct {
@@ -94,10 +191,13 @@ TEST(RobotMistakes, CommandsOfOtherRobotsAreMistakes) {
   } cases[] = {
       {"rover", "joints = { 1, 2, 3, 4 }", "drive[1].joints: the motor of front_left_wheel_joint turns at a speed and holds no position"},
       {"rover", "joints = { 1 }, joint_names = { \"rear_left_wheel_joint\" }", "drive[1].joints: the motor of rear_left_wheel_joint"},
-      {"rover", "flippers_deg = { 9, 9, 9, 9 }", "drive[1].flippers_deg: more angles than the robot has flippers: expected 0 at most"},
+      {"rover", "flippers_deg = { 9, 9, 9, 9 }", "drive[1].flippers_deg: this robot has no tracks, and so no flippers: expected nothing, found 4"},
       {"rover", "growth = 0.1", "drive[1]: a command of another robot: expected what a rover does, found one of growth"},
       {"crawler", "gait = \"rolling\"", "drive[1]: a command of another robot: expected what a crawler does, found one of gait"},
-      {"crawler { flippers = false }", "flippers_deg = { 9, 9, 9, 9 }", "drive[1].flippers_deg: more angles"},
+      {"crawler { flippers = false }", "flippers_deg = { 9, 9, 9, 9 }", "drive[1].flippers_deg: not as many values as the robot has motors at joints: "
+                                        "expected none: no joint has a motor, found 4"},
+      {"snake { modules = 3 }", "joints = { 0.5 }",
+       "drive[1].joints: not as many values as the robot has motors at joints: expected 2: joint_1, joint_2, found 1"},
       {"snake", "linear = 0.3", "drive[1].linear: this robot has neither tracks nor driven wheels: expected 0, found 0.3"},
       {"vine", "angular = 0.3", "drive[1].angular: this robot has neither tracks nor driven wheels"},
   };

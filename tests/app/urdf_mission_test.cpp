@@ -254,8 +254,8 @@ TEST(Urdf, AMissionDrivesARobotOfTheField) {
   write_file(scratch / "n.lua", replaced(read_file(scratch / "m.lua"), "start = { j = -1 }", "drive = { { t = 0, joints = { -1, 2 } } }"));
   const Outcome more = run_rubble("run " + (scratch / "n.lua") + " --out " + (scratch / "more"));
   EXPECT_EQ(more.exit_code, 1);
-  EXPECT_NE(more.err.find("n.lua:2: robots[1].drive[1].joints: more values than the robot has motors at joints: expected 1 at most: j, "
-                          "found 2"), std::string::npos) << more.err;
+  EXPECT_NE(more.err.find("n.lua:2: robots[1].drive[1].joints: not as many values as the robot has motors at "
+                          "joints: expected 1: j, found 2"), std::string::npos) << more.err;
 }
 
 // Where a user stands most often: files that the mission names have no folder in their path then.

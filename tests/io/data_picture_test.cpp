@@ -32,6 +32,13 @@ TEST(DataPicture, SixteenBitsStayLinear) {
   EXPECT_EQ(colour.rgba, (std::vector<std::uint8_t>{0, 0, 0, 255, 128, 128, 128, 255, 255, 255, 255, 255}));
 }
 
+// glTF: what an image says of its colour space is ignored.
+TEST(DataPicture, GammaOfAPngChangesNoTexture) {
+  std::string png = encode_png(RgbImage{1, 1, {200, 100, 50}});
+  png.insert(33, std::string("\0\0\0\x04gAMA\0\x01\x86\xa0\x31\xe8\x96\x5f", 16));  // 1.0, behind IHDR
+  EXPECT_EQ(decode_picture(png).rgba, (std::vector<std::uint8_t>{200, 100, 50, 255}));
+}
+
 TEST(DataPicture, EightBitsAndColoursAreTheirStoredValues) {
   EXPECT_EQ(decode_data_picture(encode_png(GrayImage{3, 1, {0, 128, 255}})).values, (std::vector<float>{0, 128, 255}));
   const DataPicture rgb = decode_data_picture(encode_png(RgbImage{2, 1, {90, 90, 90, 0, 255, 0}}));

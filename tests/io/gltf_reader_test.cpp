@@ -156,10 +156,12 @@ TEST_F(Gltf, ImagesOfOtherKindsAreNamedWithTheirExtension) {
   const int positions = file.floats(kSolid, "VEC3", 3), indices = file.add<std::uint8_t>(kFacesOfSolid, "SCALAR", 5121, false, 1);
   const int places = file.floats({0, 0, 1, 0, 0, 1, 1, 1}, "VEC2", 2);
   load(file, std::string(kNode) + R"(,"images":[{"uri":"t.webp"}],"textures":[{"extensions":{"EXT_texture_webp":{"source":0}}}],
-"materials":[{"extensions":{"KHR_materials_clearcoat":{}},"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],
+"materials":[{"emissiveFactor":[0,0.5,0],"normalTexture":{"index":0,"scale":0.5},"extensions":{"KHR_materials_clearcoat":{}},"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],
 "meshes":[{"primitives":[{"attributes":{"POSITION":)" + std::to_string(positions) + ",\"TEXCOORD_0\":" + std::to_string(places) +
                  "},\"indices\":" + std::to_string(indices) + ",\"material\":0}]}]");
   EXPECT_NE(notes().find("the image t.webp is of the extension EXT_texture_webp"), std::string::npos) << notes();
+  EXPECT_NE(notes().find("light that surfaces give is not drawn"), std::string::npos) << notes();
+  EXPECT_NE(notes().find("the scale of the image of normals is not applied"), std::string::npos) << notes();
   EXPECT_NE(notes().find("the extension KHR_materials_clearcoat of materials is not drawn"), std::string::npos) << notes();
 }
 

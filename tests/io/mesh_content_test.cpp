@@ -32,12 +32,16 @@ TEST_F(MeshContentFiles, OfOneFileHasItsHash) {
 }
 
 TEST_F(MeshContentFiles, AreBuffersAndImagesOfGltf) {
-  const std::string json = R"({"buffers": [{"uri": "data:application/octet-stream;base64,AA=="}, {"uri": "b%20uf.bin"}],
+  const std::string json = R"({"asset": {"version": "2.0"}, "buffers": [{"uri": "data:application/octet-stream;base64,AA=="}, {"uri": "b%20uf.bin"}],
                                "images": [{"uri": "wood.png"}]})";
   const std::string gltf = put("a.gltf", json);
-  std::string head = std::string("glTF\2\0\0\0....", 12) + std::string(4, '\0') + "JSON";
-  for (std::size_t i = 0; i < 4; ++i) head[12 + i] = char(json.size() >> 8 * i & 255);
-  const std::string glb = put("a.glb", head + json + "binary chunk");
+  const auto four = [](std::size_t number) {
+    std::string bytes;
+    for (int i = 0; i < 4; ++i) bytes += char(number >> 8 * i & 255);
+    return bytes;
+  };
+  const std::string padded = json + std::string((4 - json.size() % 4) % 4, ' ');
+  const std::string glb = put("a.glb", "glTF" + four(2) + four(20 + padded.size()) + four(padded.size()) + "JSON" + padded);
   put("wood.png", "");
   for (const std::string& mesh : {gltf, glb}) {
     EXPECT_TRUE(follows(mesh, "b uf.bin", MeshContent::geometry)) << mesh;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 
 #include "io/base/atomic_file.h"
 #include "io/image/image_file.h"
@@ -101,6 +102,36 @@ TEST_F(MeshFormats, ObjReadsEveryMaterialFileAndNamesALostOne) {
   EXPECT_EQ(notes(), "the material file gone.mtl was not found beside the mesh; its colours are left out\n");
 }
 
+TEST_F(MeshFormats, ColoursOfObjVerticesAreNotDarkened) {
+  const TriangleMesh mesh = load("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nv 0 0 1 1 0 0\n"
+                                          "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  ASSERT_EQ(mesh.paints.size(), 1u);
+  EXPECT_EQ(mesh.paints[0]->colour, Vec3f(1, 1, 1));
+}
+
+TEST_F(MeshFormats, NamesOfMaterialsMayHaveQuotesAndComments) {
+  for (const auto& [defined, used] : {std::pair("red", "red # why"), std::pair("red # why", "red"), std::pair("\"red\"", "red"),
+                                      std::pair("red", "\"red\""), std::pair("Material #25", "Material #25")}) {
+    write_text_file(folder_ / "m.mtl", std::string("newmtl ") + defined + "\nKd 1 0 0\n");
+    const TriangleMesh mesh = load("a.obj", std::string("mtllib m.mtl # colours\n") + kCube + "usemtl " + used + "\n" + kFaces);
+    ASSERT_EQ(mesh.paints.size(), 1u) << used;
+    EXPECT_EQ(mesh.paints[0]->colour, Vec3f(1, 0, 0)) << used;
+    EXPECT_EQ(notes(), "") << used;
+  }
+  load("a.obj", std::string("mtllib m.mtl\n") + kCube + "usemtl blue\n" + kFaces);
+  EXPECT_EQ(notes(), "the material \"blue\" is in no material file; its colour is left out\n");
+}
+
+TEST_F(MeshFormats, MtlFindsImagesBesideALibraryInASubfolder) {
+  std::filesystem::create_directories(std::filesystem::path(folder_ / "sub"));
+  write_png(folder_ / "sub/t.png", RgbImage{2, 2, std::vector<std::uint8_t>(12, 90)});
+  write_text_file(folder_ / "sub/m.mtl", "newmtl a\nmap_Kd t.png\n");
+  const TriangleMesh mesh =
+      load("a.obj", "mtllib sub/m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n");
+  ASSERT_EQ(mesh.paints.size(), 1u);
+  EXPECT_EQ(mesh.paints[0]->albedo.side, 2) << notes();
+}
+
 TEST_F(MeshFormats, MtlFindsImagesBehindOptionsAndAmongBlanks) {
   write_png(folder_ / "my image.png", RgbImage{2, 2, std::vector<std::uint8_t>(12, 90)});
   const std::string mesh_text = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n";
@@ -128,6 +159,23 @@ std::string tetrahedron(const std::string& normal, const char* corner) {
   const char *o = "0 0 0", *x = "1 0 0", *y = "0 1 0", *z = "0 0 1";
   return "solid part of CAD\n" + facet(normal, o, y, x) + facet(normal, o, x, z) + facet(normal, x, y, z) +
          facet(normal, corner, z, y) + "endsolid\n";
+}
+
+TEST_F(MeshFormats, TextStlMayHaveACommentPaddingAndNormalsThatAreNoNumbers) {
+  const std::string faces = facet("-1.#IND -1.#IND 1.#QNAN", "0 0 0", "0 1 0", "1 0 0") + facet("0 0 0", "0 0 0", "1 0 0", "0 0 1") +
+                            facet("0 0 0", "1 0 0", "0 1 0", "0 0 1") + facet("-nan(ind) 0 0", "0 1 0", "0 0 0", "0 0 1");
+  for (const std::string& tail : {std::string("\0\0", 2), std::string("\x1a")})
+    EXPECT_EQ(load("a.stl", "# made by x\nsolid x\n" + faces + "endsolid x\n" + tail).triangles.size(), 4u);
+  EXPECT_EQ(notes(), "12 of 12 normals are zero or not numbers; those of the faces are used\n");
+}
+
+TEST_F(MeshFormats, PlyMayHaveAMarkBlanksAndAnyLineEnd) {
+  const std::string text = "ply \nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                           "element face 4\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+                           "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  std::string old = text;
+  std::replace(old.begin(), old.end(), '\n', '\r');
+  for (const std::string& bytes : {text, "\xef\xbb\xbf" + text, old}) EXPECT_EQ(load("a.ply", bytes).triangles.size(), 4u);
 }
 
 TEST_F(MeshFormats, CornersThatDifferByRoundingAreOne) {

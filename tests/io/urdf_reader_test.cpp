@@ -299,6 +299,7 @@ TEST(UrdfReader, XacroThatIsNotExpandedIsRefusedByItsElement) {
   const std::string inner = "<robot name=\"r\"><link name=\"${prefix}a\"/></robot>";
   EXPECT_TRUE(holds(mistake_in(inner), "a.urdf:1: <link> of xacro")) << mistake_in(inner);
   EXPECT_EQ(read("<robot name=\"r\"><link name=\"a\"/></robot>", "a.urdf.xacro").links.size(), 1U) << "without any it is URDF";
+  EXPECT_EQ(read("<robot name=\"r\"><link name=\"a\"/><gazebo><env x=\"$(env HOME)\"/></gazebo></robot>", "a.urdf").links.size(), 1U);
 }
 
 // A tool in its place: it prints its arguments, or fails.

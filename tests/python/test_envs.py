@@ -297,10 +297,16 @@ class Rules(unittest.TestCase):
         with self.assertRaises(RuntimeError):
             env.step(np.zeros(4))
         env.reset(seed=1)
-        for action in (np.zeros(3), [0, 0, np.nan, 0], np.zeros((4, 1)), [0, 0, 1.5, 0], [-2, 0, 0, 0]):
+        for action in (np.zeros(3), [0, 0, np.nan, 0], np.zeros((4, 1)), [0, 0, 1.5, 0], [-2, 0, 0, 0], "left",
+                       [0, 1j, 0, 0], [[1], 2, 3, 4]):
             with self.assertRaises(rubble.InputError) as raised:
                 env.step(action)
             self.assertEqual(raised.exception.key, "action")
+        for make, key in ((lambda: VoidExplore(size=10**6), "size"), (lambda: SnakeExplore(size=15), "size"),
+                          (lambda: CrawlerNav(rays=10**9), "rays")):
+            with self.assertRaises(rubble.InputError) as raised:
+                make()
+            self.assertEqual(raised.exception.key, key)
         for seed in (-1, 2**64, 1.5, "1"):
             with self.assertRaises(rubble.InputError) as raised:
                 rubble.settle("scripts/first_pile.lua", seed=seed)

@@ -1,6 +1,10 @@
 """Missions as objects: they say what the same mission in Lua says, and a run of them gives the same dataset."""
+import copy
 import json
 import os
+import pickle
+import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -54,9 +58,38 @@ class Text(unittest.TestCase):
             self.assertIn("packs", line)
             self.assertNotIn("\n", line.split("packs", 1)[1].strip("\n"))
         self.assertIn('"a\\0001"', rubble.Mission(packs=["a\x001"]).to_lua())  # not the one character \01
-        with self.assertRaisesRegex(rubble.InputError, "a.x001"):
+        with self.assertRaisesRegex(rubble.InputError, "a string with a zero byte"):
             rubble.Mission(packs=["a\x001"]).check()
         self.assertIn('["a b"] = 1', m.Robot(efforts={"a b": 1.0}).given() and rubble.Mission(robots=[m.Robot(efforts={"a b": 1})]).to_lua())
+
+    def test_misspelt_attributes_are_refused(self):
+        pile, mission = m.Pile(layers=1), rubble.Mission(seed=3)
+        with self.assertRaisesRegex(AttributeError, "Pile has no key `peices_per_layer`; did you mean `pieces_per_layer`?"):
+            pile.peices_per_layer = 9
+        with self.assertRaisesRegex(AttributeError, "Mission has no key `seeed`; did you mean `seed`?"):
+            mission.seeed = 5
+        pile.pieces_per_layer, mission.pile = 9, pile
+        for same in (copy.copy(mission), copy.deepcopy(mission), pickle.loads(pickle.dumps(mission))):
+            self.assertEqual(same, mission)
+            self.assertEqual(same.check()["pile"]["pieces_per_layer"], 9)
+
+    def test_loaded_missions_keep_the_seed_of_their_random_numbers(self):
+        drew = rubble.Mission.load('local r = rubble.random("x")\nreturn rubble.mission { seed = 3, pile = { layers = 0, placed = { '
+                                   "{ box = { 1, 1, 1 }, position = { r:uniform(), 0, 0.5 } } } } }")
+        with tempfile.TemporaryDirectory() as folder:
+            for call in (lambda: rubble.settle(drew, 4), lambda: rubble.settle(copy.copy(drew), None, ["seed=4"]),
+                         lambda: rubble.run(drew, folder, seed=4), lambda: rubble.batch(drew, "1..3", folder),
+                         lambda: rubble.batch(drew, [3, 4], folder)):
+                with self.assertRaisesRegex(rubble.InputError, "seed: the script of this mission drew random numbers.*expected 3"):
+                    call()
+        self.assertEqual(rubble.settle(drew, 3).state_hash, rubble.settle(drew).state_hash)
+        rubble.settle(rubble.Mission.load("return rubble.mission { seed = 3, pile = { layers = 0 } }"), 4)
+
+    def test_loaded_missions_have_no_idle_defaults(self):
+        program = ("import rubble\nfor name in ('small.lua', 'lidar.lua'):\n    loaded = rubble.Mission.load('scripts/' + name)\n"
+                   "    print('again'), loaded.check(), rubble.Mission.from_dict(loaded.check()).check()\n")
+        ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+        self.assertNotIn("has no effect", ran.stderr)
 
     def test_mistakes_name_their_key(self):
         with self.assertRaises(TypeError):

@@ -138,6 +138,7 @@ void Inspector::enter(std::optional<std::uint64_t> seed) {
   if (seed) of.seed = seed;
   run_ = std::make_unique<RunContext>(of.options);
   mission_ = std::make_unique<ResolvedMission>(resolve_mission(of, RunKind::run, *run_));
+  check_robot_models(mission_->scenario, mission_->assets, mission_->provenance.script);
   pile_ = std::make_unique<InspectedPile>(*mission_, run_->threads());
   overlay_ = std::make_unique<Overlay>(mission_->assets.types);
   voids_ = std::make_unique<VoidSurvey>(mission_->scenario.voids, mission_->assets);

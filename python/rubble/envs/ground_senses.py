@@ -35,7 +35,7 @@ def is_fallen(state):
 class GroundSenses:
     def __init__(self, rays, max_range, drawn):
         """drawn: the Drawn of the environment."""
-        rays, self._max_range, self._drawn = whole("rays", rays, 1), real("max_range", max_range), drawn
+        rays, self._max_range, self._drawn = whole("rays", rays, 1, 100_000), real("max_range", max_range), drawn
         turns = _core._directions(2 * np.pi * np.arange(rays) / rays)
         self._rays = np.append(turns, np.zeros((rays, 1)), axis=1)
 

@@ -48,7 +48,7 @@ import math
 import numpy as np
 
 from .. import _core, geometry
-from ..arguments import checked_seed, mistake, real
+from ..arguments import checked_seed, mistake, real, whole
 from .pictures import depth_space
 from .randomization import Drawn
 from .spaces import Box, Dict, Env
@@ -75,6 +75,7 @@ class SnakeExplore(Env):
         self._radius, self._max_steps, self._enough = radius, checked_limit(max_steps), real("enough", enough, most=1)
         self._robot, max_range = None, real("max_range", max_range)
         self._drawn = Drawn(randomization, self.randomized, "SnakeExplore")
+        size = whole("size", size, 16, 8192)
         self._worlds = VoidWorlds(pile_seeds, lambda seed: VoidWorld(mission, seed, radius, voxel, size, fov_deg, max_range,
                                                                      False, threads, metres, self._drawn))
         self._robots = RobotWorlds("snake", threads)

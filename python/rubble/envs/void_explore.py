@@ -50,7 +50,7 @@ Arguments:
 import numpy as np
 
 from .. import _core, geometry
-from ..arguments import checked_seed, real
+from ..arguments import checked_seed, real, whole
 from .pictures import depth_space
 from .randomization import Drawn
 from .spaces import Box, Dict, Env
@@ -78,6 +78,7 @@ class VoidExplore(Env):
         max_range = real("max_range", max_range)
         self._drawn = Drawn(randomization, self.randomized if colour else self.randomized[:2],
                             "VoidExplore" if colour else "VoidExplore without colour")
+        size = whole("size", size, 16, 8192)
         self._worlds = VoidWorlds(pile_seeds, lambda seed: VoidWorld(mission, seed, radius, voxel, size, fov_deg, max_range,
                                                                      colour, threads, metres, self._drawn))
         self._world = None

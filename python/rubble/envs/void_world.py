@@ -96,7 +96,12 @@ class VoidWorlds:
 def checked_action(action, count):
     """As floats between -1 and 1. Raises InputError for another shape and for what is not finite or beyond these by more
     than rounding: gymnasium.wrappers.ClipAction clips what a policy draws."""
-    action = np.asarray(action, float)
+    try:
+        if np.iscomplexobj(action):
+            raise TypeError
+        action = np.asarray(action, float)
+    except (TypeError, ValueError):
+        raise mistake("action", f"expected {count} numbers from -1 to 1: found {action!r}") from None
     if action.shape != (count,) or not np.all(np.isfinite(action)) or not np.all(np.abs(action) <= 1 + 1e-6):
         raise mistake("action", f"expected {count} numbers from -1 to 1: found {action!r}")
     return np.clip(action, -1, 1)

@@ -6,6 +6,7 @@
 #include "app/assets/asset_materials.h"
 #include "kernel/base/hash.h"
 #include "kernel/base/mesh_edges.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/system/file_sandbox.h"
 #include "kernel/geometry/height_field.h"
 #include "render/materials/surface_appearance.h"
@@ -16,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kDepth = 0.5;  // of a height field's bottom under the ground; unit: m
+constexpr double kLargestMeant = 2e4;  // of a terrain whose units are right; unit: m
 constexpr const char* kGroundAppearance = "ground";
 
 bool is_surface_appearance(const std::string& name) {
@@ -101,6 +103,9 @@ MadeTerrain make_terrain(const TerrainScenario& spec, const std::vector<std::str
     if (!is_closed(mesh))
       terrain.warnings.push_back(path + ": the mesh is not closed: " + describe(find_open_edges(mesh)) +
                                  ". It has no inside for maps of voids");
+    const Vec3 size = mesh.bounds().max - mesh.bounds().min;
+    if (const double largest = std::max(size.x, size.y); largest > kLargestMeant)
+      terrain.warnings.push_back(path + ": the terrain is " + brief_text(largest) + " m large: are its `units` right?");
     for (const std::string& note : importer.notes().shape) terrain.warnings.push_back(path + ": " + note);
     if (has_paint(mesh))
       for (const std::string& note : importer.notes().looks) terrain.warnings.push_back(path + ": " + note);

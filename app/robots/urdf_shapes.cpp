@@ -6,7 +6,9 @@
 
 #include "app/assets/asset_materials.h"
 #include "app/assets/convex_parts.h"
+#include "kernel/base/error.h"
 #include "kernel/base/hash.h"
+#include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/robot/parts.h"
 
@@ -14,6 +16,7 @@ namespace rubble {
 namespace {
 
 constexpr int kFacets = 32, kSpherePoints = 96;
+constexpr double kFarthestVertex = 1e4;  // of a mesh; unit: m
 constexpr float kPaintReflectance = 0.04f, kPaintRoughness = 0.6f;  // of what has a colour in the file; our choice
 
 // Golden-angle spiral. With a length the two halves are that far apart, along Z. unit: m
@@ -64,6 +67,10 @@ TriangleMesh load_scaled(const UrdfGeometry& g, MeshImporter& importer, std::vec
     p = {float(p.x * g.scale.x), float(p.y * g.scale.y), float(p.z * g.scale.z)};
   mesh.normals.clear();  // an uneven scale turns them
   if (g.scale.x * g.scale.y * g.scale.z < 0) turn_triangles(mesh);
+  const Aabb box = mesh.bounds();
+  const Vec3 far = max(box.max, -box.min);
+  if (const double most = std::max({far.x, far.y, far.z}); !(most <= kFarthestVertex))
+    throw InputError({g.file, 0, "scale", "makes the mesh too large", "vertices within 10000 m", brief_text(most) + " m", ""});
   return mesh;
 }
 

@@ -48,11 +48,15 @@ FileFrame frame_of(const ImportedScene& scene, const MeshUnits& units) {
 constexpr double kRoundedAway = 1e-3, kCoarseShare = 1e-5;
 constexpr double kCoarse = 1e-3;  // unit: m
 
+constexpr double kLargestMesh = 1e6;  // unit: m
+
 // Far from the origin single precision rounds corners to places that make another shape.
 void check_place(const TriangleMesh& mesh, const std::string& path) {
   const Aabb box = mesh.bounds();
   const Vec3 size = box.max - box.min, far = max(box.max, -box.min);
   const double longest = std::max({size.x, size.y, size.z}), farthest = std::max({far.x, far.y, far.z});
+  if (!(longest <= kLargestMesh))
+    throw InputError({path, 0, "", "is too large", "at most 1000 km", brief_text(longest) + " m", "are its `units` right?"});
   const double rounding = farthest * double(std::numeric_limits<float>::epsilon());
   if (rounding <= kRoundedAway * longest && (rounding <= kCoarse || rounding <= kCoarseShare * longest)) return;
   char found[160], hint[160];

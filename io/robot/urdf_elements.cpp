@@ -123,9 +123,10 @@ Vec3 UrdfElements::vector(const XmlElement& element, const char* attribute, cons
     if (n.size() == 3)
       warn(element.line, std::string("`") + attribute + "` of <" + element.name + "> has commas: taken for blanks");
   }
-  if (n.size() == 3 && std::all_of(n.begin(), n.end(), [](double x) { return std::isfinite(x); }))
+  if (n.size() == 3 && std::all_of(n.begin(), n.end(), [](double x) { return std::abs(x) <= kUrdfFarthest; }))
     return {n[0], n[1], n[2]};
-  not_a_number(element, attribute, "three numbers, with blanks between them", *text);
+  const bool far = n.size() == 3 && std::all_of(n.begin(), n.end(), [](double x) { return std::isfinite(x); });
+  not_a_number(element, attribute, far ? "numbers from -10000 to 10000" : "three numbers, with blanks between them", *text);
   return otherwise;
 }
 

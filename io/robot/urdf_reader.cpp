@@ -17,6 +17,7 @@ namespace rubble {
 namespace {
 
 constexpr double kLeastAxis = 1e-9;  // length of an axis that has a direction
+constexpr double kMostMass = 1e9;    // of a link; unit: kg
 
 // Reads the children of <robot>, one by one.
 class PartReader {
@@ -131,6 +132,8 @@ class PartReader {
       link.mass = elements_.number(*mass, "value", 0, true);
       if (link.mass < 0)
         elements_.mistake(mass->line, "a mass below 0", "0 kg or more", plain_text(link.mass) + " kg");
+      if (link.mass > kMostMass)
+        elements_.mistake(mass->line, "a mass that no robot has", "at most 1e9 kg", plain_text(link.mass) + " kg");
     }
     double i[6] = {};
     if (const XmlElement* inertia = from.child("inertia")) {
@@ -189,6 +192,8 @@ class PartReader {
       return elements_.mistake(shape.line, "<" + shape.name + "> is not a shape that can be read",
                                "<box>, <cylinder>, <capsule>, <sphere> or <mesh>", "<" + shape.name + ">");
     }
+    if (std::max(g.radius, g.length) > kUrdfFarthest)
+      elements_.mistake(shape.line, "its geometry is too large", "sizes of at most 10000 m", plain_text(std::max(g.radius, g.length)));
     if (least < 0) elements_.mistake(shape.line, "its geometry has a size below 0", "sizes above 0 m", plain_text(least));
     if (least == 0)
       elements_.warn(shape.line, "<" + shape.name + "> of " + from.name + " has a size of 0 and is left out");
@@ -258,6 +263,9 @@ class PartReader {
     joint.upper = elements_.number(*limit, "upper", 0, false, true);
     if (joint.lower > joint.upper || joint.lower == kNever || joint.upper == -kNever)
       elements_.mistake(limit->line, "its range is empty", "lower <= upper",
+                        plain_text(joint.lower) + " to " + plain_text(joint.upper));
+    else if (joint.lower > kUrdfFarthest || joint.upper < -kUrdfFarthest)
+      elements_.mistake(limit->line, "its range is out of reach", "some of -10000 to 10000",
                         plain_text(joint.lower) + " to " + plain_text(joint.upper));
   }
 

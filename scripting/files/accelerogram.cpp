@@ -6,6 +6,7 @@
 #include "kernel/base/error.h"
 #include "kernel/base/number_text.h"
 #include "kernel/base/tables/text_table.h"
+#include "scripting/files/column_names.h"
 
 namespace rubble {
 namespace {
@@ -19,9 +20,7 @@ double acceleration_unit(std::string_view written) {
   std::string word;
   for (const char c : lower_case(written))
     if (c != ' ' && c != '^' && c != '*' && c != '.') word += c;
-  const auto is = [&word](std::initializer_list<const char*> names) {
-    return std::any_of(names.begin(), names.end(), [&](const char* name) { return word == name; });
-  };
+  const auto is = [&word](std::initializer_list<const char*> names) { return is_one_of(word, names); };
   if (is({"g", "gs", "g's"})) return kGravity;
   if (is({"mg"})) return kGravity / 1000;
   if (is({"gal", "gals", "cm/s2", "cm/s/s", "cm/sec2", "cm/sec/sec", "cm/s-2", "cms-2"})) return 0.01;
@@ -191,21 +190,32 @@ class AccelerogramReader {
 
   struct NamedColumns {
     int time = -1, value = -1;
-    std::string unit;
+    double time_unit = 1;  // unit: s
+    std::string unit;      // of the values
   };
 
-  // "t [s]", "time", "a [g]", "acc_g", "acceleration (cm/s2)"
+  // "t [s]", "time_ms", "a [g]", "acc_g", "acceleration (cm/s2)"
   NamedColumns columns_of(const TextRow& names) const {
     NamedColumns columns;
-    for (std::size_t i = 0; i < names.words.size(); ++i) {
-      const std::string low = lower_case(names.words[i]);
+    const std::vector<std::string> joined_names = join_units(names.words);
+    for (std::size_t i = 0; i < joined_names.size(); ++i) {
+      const std::string low = lower_case(joined_names[i]);
       const std::string name = low.substr(0, low.find_first_of(" _[("));
-      if (name == "t" || name == "time") columns.time = int(i);
-      if (name != "a" && name != "acc" && name != "accel" && name != "acceleration") continue;
-      if (columns.value >= 0) refuse(names.line, "two columns are accelerations", "one", std::string(names.words[i]));
+      const std::size_t at = low.find_first_of("_[(");
+      const std::string unit(at == std::string::npos
+                                 ? std::string_view()
+                                 : trimmed(std::string_view(low).substr(at + 1, low.find_first_of(")]", at) - at - 1)));
+      if (name == "t" || name == "time") {
+        columns.time = int(i);
+        columns.time_unit = unit.empty() ? 1 : time_unit(unit);
+        if (columns.time_unit == 0)
+          refuse(names.line, "column `" + joined_names[i] + "` has an unknown unit", kTimeUnits, "`" + unit + "`",
+                 "convert it, and name it `t [s]`");
+      }
+      if (!is_one_of(name, {"a", "acc", "accel", "acceleration"})) continue;
+      if (columns.value >= 0) refuse(names.line, "two columns are accelerations", "one", joined_names[i]);
       columns.value = int(i);
-      const std::size_t unit = low.find_first_of("_[(");
-      if (unit != std::string::npos) columns.unit = low.substr(unit + 1, low.find_first_of(")]", unit) - unit - 1);
+      columns.unit = unit;
     }
     return columns;
   }
@@ -245,7 +255,7 @@ class AccelerogramReader {
       take_value(row.words[std::size_t(columns.value)], row.line);
       const auto time = parse_number(row.words[std::size_t(columns.time)]);
       if (!time) refuse(row.line, "not a number", "a time", "`" + std::string(row.words[std::size_t(columns.time)]) + "`");
-      times.push_back(*time);
+      times.push_back(columns.time_unit == 1 ? *time : *time * columns.time_unit);
     }
     if (times.size() < 2) refuse(0, "has no time step", "two rows or more", "one");
     const double first = times[1] - times[0];
@@ -264,7 +274,8 @@ class AccelerogramReader {
 
   void finish() {
     if (result_.values.empty()) refuse(0, "has no values", "accelerations", "none");
-    if (!(result_.step >= 1e-4 && result_.step <= 10)) refuse(0, "has an odd time step", "0.0001 to 10 s", brief_text(result_.step) + " s");
+    if (!(result_.step >= 1e-4 && result_.step <= 10)) refuse(0, "has an odd time step", "0.0001 to 10 s", brief_text(result_.step) + " s",
+                                                              "name a column of other times `t [ms]` or so");
     for (const double value : result_.values) result_.peak = std::max(result_.peak, std::abs(value));
     constexpr double kLargestRecorded = 50;  // the largest on record is 43 m/s2 (Iwate, 2008); unit: m/s2
     if (result_.peak > kLargestRecorded)

@@ -3,63 +3,15 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "kernel/base/portable_math.h"
-#include "kernel/base/tables/text_table.h"
+#include "scripting/files/column_names.h"
 
 namespace rubble {
 namespace {
 
 using Tokens = std::vector<std::string>;
 
-bool among(const std::string& word, std::initializer_list<const char*> words) {
-  return std::any_of(words.begin(), words.end(), [&](const char* w) { return word == w; });
-}
-
 bool any_among(const Tokens& tokens, std::initializer_list<const char*> words) {
-  return std::any_of(tokens.begin(), tokens.end(), [&](const std::string& t) { return among(t, words); });
-}
-
-// 0: the word is no unit of time.
-double time_unit(const std::string& word) {
-  if (among(word, {"s", "sec", "secs", "second", "seconds"})) return 1;
-  if (among(word, {"ms", "msec", "msecs", "millis", "milliseconds"})) return 1e-3;
-  if (among(word, {"us", "usec", "usecs", "micros", "microseconds"})) return 1e-6;
-  if (among(word, {"ns", "nsec", "nsecs", "nanos", "nanosec", "nanosecs", "nanoseconds"})) return 1e-9;
-  return 0;
-}
-
-double length_unit(const std::string& word) {
-  if (among(word, {"m", "meter", "meters", "metre", "metres"})) return 1;
-  if (word == "cm") return 1e-2;
-  return word == "mm" ? 1e-3 : 0;
-}
-
-double angle_unit(const std::string& word) {
-  if (among(word, {"rad", "rads", "radian", "radians"})) return 1;
-  return among(word, {"deg", "degs", "degree", "degrees"}) ? portable::kPi / 180 : 0;
-}
-
-// "p_RS_R_x [m]": the words p, rs, r, x, and the unit m.
-struct ColumnName {
-  Tokens tokens;
-  std::string unit;  // what stands in brackets
-};
-
-ColumnName read_name(const std::string& name) {
-  ColumnName read;
-  std::string word, low = lower_case(name);
-  const std::size_t open = low.find_first_of("[(");
-  if (open != std::string::npos && open > 0) {
-    const std::size_t close = low.find_first_of("])", open);
-    read.unit = std::string(trimmed(low.substr(open + 1, std::min(close, low.size()) - open - 1)));
-    low.resize(open);
-  }
-  for (const char c : low + "_") {
-    const bool letter = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    if (letter) word += c;
-    if (!letter && !word.empty()) read.tokens.push_back(std::move(word)), word.clear();
-  }
-  return read;
+  return std::any_of(tokens.begin(), tokens.end(), [&](const std::string& t) { return is_one_of(t, words); });
 }
 
 PoseQuantity axis_of(const std::string& word, std::initializer_list<const char*> prefixes, PoseQuantity first) {
@@ -77,7 +29,7 @@ PoseQuantity angle_of(const std::string& word) {
 
 // Of a name that is one word.
 PoseQuantity quantity_of_word(const std::string& word) {
-  if (among(word, {"t", "ts", "time", "times", "timestamp", "timestamps", "stamp"})) return PoseQuantity::time;
+  if (is_one_of(word, {"t", "ts", "time", "times", "timestamp", "timestamps", "stamp"})) return PoseQuantity::time;
   if (const auto p = axis_of(word, {"", "p", "t", "pos"}, PoseQuantity::x); p != PoseQuantity::other) return p;
   if (word == "qw") return PoseQuantity::qw;
   if (const auto q = axis_of(word, {"q"}, PoseQuantity::qx); q != PoseQuantity::other) return q;
@@ -90,7 +42,7 @@ PoseQuantity quantity_of_words(const Tokens& tokens) {
   if (any_among(tokens, {"v", "vel", "velocity", "twist", "linear", "angular", "acc", "acceleration", "a", "b", "bias",
                          "cov", "covariance", "omega", "gyro", "std", "sigma", "var", "rate", "seq"}))
     return PoseQuantity::other;
-  if (among(last, {"time", "timestamp", "stamp"})) return PoseQuantity::time;
+  if (is_one_of(last, {"time", "timestamp", "stamp"})) return PoseQuantity::time;
   if (any_among(tokens, {"q", "quat", "quaternion", "orientation", "rot", "rotation"})) {
     if (last == "w" || last == "qw") return PoseQuantity::qw;
     return axis_of(last, {"", "q"}, PoseQuantity::qx);
@@ -115,57 +67,103 @@ double unit_of(PoseQuantity quantity, const std::string& word) {
 
 }  // namespace
 
-std::vector<std::string> join_units(const std::vector<std::string_view>& words) {
-  std::vector<std::string> joined;
-  bool open = false;
-  for (const std::string_view word : words) {
-    const bool unit = !word.empty() && (word[0] == '[' || word[0] == '(');
-    if ((unit || open) && !joined.empty())
-      joined.back() += " " + std::string(word);
-    else
-      joined.emplace_back(word);
-    if (unit) open = true;
-    if (open) open = word.find_first_of("])") == std::string_view::npos;
-  }
-  return joined;
-}
-
 PoseColumn classify_column(const std::string& name) {
-  ColumnName read = read_name(name);
+  ColumnName read = read_column_name(name);
   PoseColumn column;
   column.name = name;
   column.quantity = quantity_of(read.tokens);
-  if (read.unit.empty() && read.tokens.size() > 1) {  // "yaw_deg", "t_ns", "x_mm"
+  if (read.unit.empty() && read.tokens.size() > 1) {  // "yaw_deg", "t_ns", "x_mm", "header.stamp.secs"
     const std::string unit = read.tokens.back();
     read.tokens.pop_back();
     const PoseQuantity quantity = quantity_of(read.tokens);
     if (quantity != PoseQuantity::other && unit_of(quantity, unit) > 0) {
       column.quantity = quantity;
       column.unit = unit_of(quantity, unit);
+      column.stem = read.tokens;
       return column;
     }
   }
-  if (!read.unit.empty() && column.quantity != PoseQuantity::other) column.unit = unit_of(column.quantity, read.unit);
+  if (read.tokens.size() == 1 && is_one_of(read.tokens[0], {"sec", "secs", "nsec", "nsecs", "nanosec", "nanosecs"})) {
+    column.unit = time_unit(read.tokens[0]);  // of no quantity without the other half
+    return column;
+  }
+  column.stem = read.tokens;
+  if (read.unit.empty() || !units_of(column.quantity)) return column;
+  column.unit = unit_of(column.quantity, read.unit);
+  if (column.unit == 0) column.unit = unit_of(column.quantity, read.unit.substr(0, read.unit.find_first_of(" ,;")));  // "s since start"
+  if (column.unit == 0) column.unknown_unit = read.unit;
   return column;
+}
+
+const char* units_of(PoseQuantity quantity) {
+  if (quantity == PoseQuantity::time) return kTimeUnits;
+  if (quantity <= PoseQuantity::z) return kLengthUnits;
+  return quantity >= PoseQuantity::roll && quantity <= PoseQuantity::yaw ? kAngleUnits : nullptr;
+}
+
+namespace {
+
+bool is_stamp_part(const PoseColumn& column) {
+  return column.quantity == PoseQuantity::time || (column.quantity == PoseQuantity::other && column.unit > 0);
+}
+
+// The column with the rest of a second whose whole seconds are in `whole`: "stamp.nsecs" of "stamp.secs". -1: none.
+int find_fraction(const std::vector<PoseColumn>& columns, const PoseColumn& whole) {
+  if (!is_stamp_part(whole) || whole.unit != 1) return -1;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (is_stamp_part(columns[i]) && columns[i].unit > 0 && columns[i].unit < 1 && columns[i].stem == whole.stem) return int(i);
+  return -1;
+}
+
+// As ROS spells the parts of its stamps: "header.stamp.secs", "stamp/nanosec".
+bool is_ros_part(const PoseColumn& column) {
+  return is_stamp_part(column) && is_one_of(read_column_name(column.name).tokens.back(),
+                                            {"sec", "secs", "nsec", "nsecs", "nanosec", "nanosecs"}) &&
+         any_among(column.stem, {"stamp"});
+}
+
+// Recorders have the time of arrival beside the stamp of the header. The larger number is taken.
+int rank_of_stamp(const std::vector<PoseColumn>& columns, std::size_t i) {
+  const bool pair = find_fraction(columns, columns[i]) >= 0, header = any_among(columns[i].stem, {"header"});
+  if (is_ros_part(columns[i]) && !pair) return 0;
+  return 1 + (pair ? 1 : 0) + (header ? 2 : 0);
+}
+
+}  // namespace
+
+void ColumnPlaces::choose_stamp() {
+  int chosen = -1, rank = -1;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const bool pair = find_fraction(columns, columns[i]) >= 0;
+    if (columns[i].quantity != PoseQuantity::time && !pair) continue;
+    if (std::any_of(columns.begin(), columns.end(), [&](const PoseColumn& whole) { return find_fraction(columns, whole) == int(i); }))
+      continue;
+    const int here = rank_of_stamp(columns, i);
+    if (here == rank)
+      throw std::runtime_error("columns `" + columns[std::size_t(chosen)].name + "` and `" + columns[i].name + "` mean the same");
+    if (here > rank) chosen = int(i), rank = here;
+  }
+  const int fraction = chosen < 0 ? -1 : find_fraction(columns, columns[std::size_t(chosen)]);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (is_stamp_part(columns[i])) columns[i].quantity = PoseQuantity::other;
+    if (int(i) == chosen) columns[i].quantity = PoseQuantity::time;
+    if (int(i) == fraction) columns[i].quantity = PoseQuantity::fraction;
+  }
+  half_stamp = rank == 0;
 }
 
 ColumnPlaces place_columns(const std::vector<std::string>& names) {
   ColumnPlaces places;
   places.place.fill(-1);
-  for (const std::string& name : names) {
-    PoseColumn column = classify_column(name);
-    const int here = int(places.columns.size());
-    places.columns.push_back(column);
-    if (column.quantity == PoseQuantity::other) continue;
-    int& place = places.place[std::size_t(column.quantity)];
-    // `rostopic echo -p` has the time of arrival before the stamp of the header.
-    const bool arrival = place >= 0 && column.quantity == PoseQuantity::time && here > 0 &&
-                         lower_case(name).find("header") != std::string::npos;
-    if (place >= 0 && !arrival)
-      throw std::runtime_error("columns `" + places.columns[std::size_t(place)].name + "` and `" + name +
-                               "` mean the same");
-    if (place >= 0) places.columns[std::size_t(place)].quantity = PoseQuantity::other;
-    place = here;
+  for (const std::string& name : names) places.columns.push_back(classify_column(name));
+  places.choose_stamp();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const PoseQuantity quantity = places.columns[i].quantity;
+    if (quantity == PoseQuantity::other) continue;
+    int& place = places.place[std::size_t(quantity)];
+    if (place >= 0)
+      throw std::runtime_error("columns `" + places.columns[std::size_t(place)].name + "` and `" + names[i] + "` mean the same");
+    place = int(i);
   }
   return places;
 }

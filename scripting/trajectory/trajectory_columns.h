@@ -3,33 +3,35 @@
 
 #include <array>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace rubble {
 
-enum class PoseQuantity { time, x, y, z, qw, qx, qy, qz, roll, pitch, yaw, other };
+enum class PoseQuantity { time, x, y, z, qw, qx, qy, qz, roll, pitch, yaw, fraction, other };  // fraction: of a second, beside whole ones
 inline constexpr std::size_t kPoseQuantities = std::size_t(PoseQuantity::other);
 
 struct PoseColumn {
   PoseQuantity quantity = PoseQuantity::other;
   std::string name;  // as the file has it
-  // In seconds, metres or radians; 0: the name has no unit. Of times a power of ten.
-  double unit = 0;
+  double unit = 0;                  // in seconds, metres or radians; 0: the name has no unit
+  std::string unknown_unit;         // in brackets, of a quantity that has units
+  std::vector<std::string> stem;    // words without a unit: header, stamp
 };
 
-// Words between blanks, of which one like "[ns]" belongs to the word before it.
-std::vector<std::string> join_units(const std::vector<std::string_view>& words);
-
 PoseColumn classify_column(const std::string& name);
+
+// For messages: "m, cm, ..."; nullptr: the quantity has no unit.
+const char* units_of(PoseQuantity quantity);
 
 // Where each quantity stands in a row; -1: nowhere.
 struct ColumnPlaces {
   std::vector<PoseColumn> columns;               // of a row, from the left
   std::array<int, kPoseQuantities> place{};      // by PoseQuantity
+  bool half_stamp = false;  // the time is one half of a ROS stamp, "header.stamp.secs" without its nanoseconds
   bool has(PoseQuantity q) const { return place[std::size_t(q)] >= 0; }
   int of(PoseQuantity q) const { return place[std::size_t(q)]; }
   const PoseColumn& column(PoseQuantity q) const { return columns[std::size_t(of(q))]; }
+  void choose_stamp();  // of several columns with times. A stamp in two columns: `time` has the seconds
   std::string left_out() const;  // names of the other columns, "vx, vy"
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -9,6 +10,7 @@
 #include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/tables/text_table.h"
+#include "scripting/files/column_names.h"
 #include "scripting/trajectory/trajectory_columns.h"
 
 namespace rubble {
@@ -31,10 +33,13 @@ constexpr double kLengthTolerance = 0.01;   // of a quaternion or of a matrix's 
 struct StampUnit {
   int digits = 9;  // of 10^digits ns
   const char* name = "s";
+  int count = 1;   // of these
 };
-constexpr StampUnit kSeconds{9, "s"}, kMillis{6, "ms"}, kMicros{3, "us"}, kNanos{0, "ns"};
+constexpr StampUnit kSeconds{9, "s"}, kMillis{6, "ms"}, kMicros{3, "us"}, kNanos{0, "ns"}, kMinutes{9, "min", 60}, kHours{9, "h", 3600};
 
 StampUnit stamp_unit(double seconds) {
+  if (seconds > 1000) return kHours;
+  if (seconds > 10) return kMinutes;
   if (seconds > 0.5) return kSeconds;
   if (seconds > 0.5e-3) return kMillis;
   return seconds > 0.5e-6 ? kMicros : kNanos;
@@ -154,6 +159,10 @@ class TrajectoryReader {
     } catch (const std::runtime_error& twice) {
       refuse(0, twice.what(), "one column for each quantity", header_, kNameThem);
     }
+    for (const PoseColumn& column : places_.columns)
+      if (!column.unknown_unit.empty() && column.quantity != Q::other)
+        refuse(0, "column `" + column.name + "` has an unknown unit", units_of(column.quantity),
+               "`" + column.unknown_unit + "` in " + header_, "convert it, or give `columns`");
   }
 
   void use_names() {
@@ -266,12 +275,41 @@ class TrajectoryReader {
     for (const TextRow& row : rows()) check_width(row);
     if (!result_.has_stamps) return;
     const PoseColumn& column = places_.column(Q::time);
-    if (column.unit > 0) {
+    if (places_.half_stamp) check_half_stamp();
+    if (places_.has(Q::fraction)) {
+      check_two_columns();
+    } else if (column.unit > 0) {
       unit_ = stamp_unit(column.unit);
     } else {
       unit_ = guess_stamp_unit();
     }
     result_.format += std::string("; stamps in ") + unit_.name;
+  }
+
+  // Whole seconds alone, or nanoseconds below one second: the other column of a ROS stamp is missing.
+  void check_half_stamp() const {
+    const PoseColumn& column = places_.column(Q::time);
+    for (const TextRow& row : rows()) {
+      const double value = number_at(row, time_place());
+      if (value != std::floor(value) || (column.unit < 1 && value >= 1e9)) return;
+    }
+    refuse(0, "column `" + column.name + "` is half of a stamp",
+           column.unit < 1 ? "the seconds as well, such as `header.stamp.secs`"
+                           : "the nanoseconds as well, such as `header.stamp.nsecs`",
+           "no such column in " + header_, "or name it `t [s]` by `columns` if it is the whole stamp");
+  }
+
+  // Whole seconds and the rest, in two columns.
+  void check_two_columns() {
+    const PoseColumn& rest = places_.column(Q::fraction);
+    const double most = std::round(1 / rest.unit);
+    for (const TextRow& row : rows()) {
+      const double whole = number_at(row, time_place()), part = number_at(row, std::size_t(places_.of(Q::fraction)));
+      if (whole == std::floor(whole) && part == std::floor(part) && part >= 0 && part < most) continue;
+      refuse(row.line, "columns `" + places_.column(Q::time).name + "` and `" + rest.name + "` are no stamp",
+             "whole seconds, and an integer from 0 to " + plain_text(most - 1), plain_text(whole) + " and " + plain_text(part),
+             "name one of both only, by `columns`");
+    }
   }
 
   StampUnit guess_stamp_unit() {
@@ -375,10 +413,16 @@ class TrajectoryReader {
     }
     double scale = 1;
     for (int i = unit_.digits; i < 9; ++i) scale *= 10;
-    pose.stamp = number_at(row, time_place()) / scale;
+    pose.stamp = number_at(row, time_place()) / scale * unit_.count;
     const auto exact = parse_scaled_integer(row.words[time_place()], unit_.digits);
-    if (!exact) refuse(row.line, "out of range", "a stamp", std::string(row.words[time_place()]));
-    pose.stamp_ns = *exact;
+    const double most = double(std::numeric_limits<std::int64_t>::max()) * 1e-9;
+    if (!exact || !(std::abs(pose.stamp) < most - 1)) refuse(row.line, "out of range", "a stamp", std::string(row.words[time_place()]));
+    pose.stamp_ns = unit_.count == 1 ? *exact : std::llround(pose.stamp * 1e9);
+    if (!places_.has(Q::fraction)) return;
+    const PoseColumn& rest = places_.column(Q::fraction);
+    const double part = number_at(row, std::size_t(places_.of(Q::fraction)));
+    pose.stamp += part * rest.unit;
+    pose.stamp_ns += std::int64_t(part) * std::llround(rest.unit * 1e9);
   }
 
   void check_order(const StampedPose& pose) {

@@ -35,7 +35,9 @@ struct RecordedTrajectory {
 // Takes, in this order:
 // - files whose columns are named, by a first line of words or by a comment with a name for each
 //   column, in any order. Names: t, time, timestamp, stamp; x, px, p_x, position.x, ...; qx, q_x,
-//   q_RS_x, orientation.x, ...; roll, pitch, yaw. Units: `[ns]`, `(mm)`, `yaw_deg`, `t_ns`.
+//   q_RS_x, orientation.x, ...; roll, pitch, yaw. Units: `[ns]`, `(mm)`, `x [ft]`, `yaw_deg`, `t_ns`; another unit in
+//   brackets is refused. A stamp may be in two columns: header.stamp.secs and .nsecs, stamp/sec and stamp/nanosec. The
+//   stamp of a header is taken before the time of arrival.
 //   `columns`, "t,x,y,z,qx,qy,qz,qw", names those of a file that does not.
 // - TUM: stamp tx ty tz qx qy qz qw, between blanks
 // - KITTI: the first three rows of a matrix; also all four, and with a stamp before them

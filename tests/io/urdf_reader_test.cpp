@@ -125,6 +125,21 @@ TEST(UrdfReader, RangesNeedNotHoldZero) {
   EXPECT_TRUE(holds(all_of(below.warnings), "a.urdf:5: `effort` of <limit> is below 0")) << all_of(below.warnings);
 }
 
+// What is larger has wrong units, and takes all memory of what lays it out.
+TEST(UrdfReader, PlacesAndSizesHaveALimit) {
+  const auto link = [](const std::string& inside) { return "<robot name=\"r\"><link name=\"a\">" + inside + "</link></robot>"; };
+  const auto shape = [&](const std::string& shape) { return mistake_in(link("<collision><geometry>" + shape + "</geometry></collision>")); };
+  for (const char* far : {"1e300 0 0", "0 -10001 0", "0 0 1e20"})
+    EXPECT_TRUE(holds(mistake_in(link("<visual><origin xyz=\"" + std::string(far) + "\"/><geometry><box size=\"1 1 1\"/></geometry></visual>")),
+                      "expected numbers from -10000 to 10000"))
+        << far;
+  EXPECT_TRUE(holds(shape("<box size=\"1e20 1 1\"/>"), "expected numbers from -10000 to 10000"));
+  EXPECT_TRUE(holds(shape("<sphere radius=\"1e20\"/>"), "its geometry is too large"));
+  EXPECT_TRUE(holds(shape("<cylinder radius=\"1\" length=\"20000\"/>"), "its geometry is too large"));
+  EXPECT_TRUE(holds(mistake_in(link("<inertial><mass value=\"1e30\"/></inertial>")), "a mass that no robot has"));
+  EXPECT_TRUE(holds(mistake_in(arm("<limit lower=\"1e8\" upper=\"1e9\" effort=\"1\" velocity=\"1\"/>")), "its range is out of reach"));
+}
+
 TEST(UrdfReader, NumbersAreReadInEveryFormAndRefusedWithTheirAttribute) {
   const auto axis = [](const std::string& xyz) { return arm(std::string(kLimit) + "<axis xyz=\"" + xyz + "\"/>"); };
   for (const char* good : {"0 1 0", "+0 1e0 .0", "\t0\n 1.0  -0 ", "0 1. 0"})

@@ -252,6 +252,12 @@ TEST(Accelerograms, OfEachArchiveAreInMetresPerSecondSquared) {
   EXPECT_EQ(parse_accelerogram("1\n-2\n", "f.txt", {0.01, "gal"}).values, (std::vector<double>{0.01, -0.02}));
 }
 
+TEST(Accelerograms, TimesHaveTheirUnit) {
+  EXPECT_NEAR(parse_accelerogram("t [ms],a [m/s^2]\n0,0.1\n10,-0.2\n20,0.1\n", "a").step, 0.01, 1e-12);
+  EXPECT_NEAR(parse_accelerogram("t [min],a [g]\n0,0.1\n0.01,-0.2\n0.02,0.1\n", "a").step, 0.6, 1e-12);
+  EXPECT_NE(error_of([] { parse_accelerogram("t [fortnight],a [g]\n0,1\n1,1\n", "a"); }).find("has an unknown unit"), std::string::npos);
+}
+
 TEST(Accelerograms, WhatIsWrongIsNamed) {
   const auto error = [](const std::string& text) { return error_of([&] { parse_accelerogram(text, "a"); }); };
   EXPECT_NE(error("PEER\nx\nVELOCITY TIME SERIES IN UNITS OF CM/S\nNPTS= 2, DT= .02 SEC\n1 2\n").find("a:3: holds no accelerations"), std::string::npos);

@@ -90,6 +90,37 @@ TEST(TrajectoryText, StampsHaveTheirUnit) {
   EXPECT_TRUE(notes(read("t,x,y,z\n0,0,0,0\n33,0,0,0\n66,0,0,0\n"), "taken as seconds"));
 }
 
+// As bagpy, PlotJuggler and rosbags write stamps: whole seconds and the rest. The time of arrival stands beside them.
+TEST(TrajectoryText, StampsMayBeInTwoColumns) {
+  for (const char* names : {"Time,header.stamp.secs,header.stamp.nsecs,x,y,z", "header.stamp.secs,header.stamp.nsecs,Time,x,y,z",
+                            "__time,/odom/header/stamp/sec,/odom/header/stamp/nanosec,x,y,z", "arrival,secs,nsecs,x,y,z"}) {
+    const bool first = names[0] == 'h';
+    const auto row = [&](const char* secs, const char* nsecs) {
+      const std::string pair = std::string(secs) + "," + nsecs;
+      return (first ? pair + ",1e9" : "1e9," + pair) + ",0,0,0\n";
+    };
+    const RecordedTrajectory track = read(std::string(names) + "\n" + row("1700000000", "999999999") + row("1700000001", "5"));
+    ASSERT_EQ(track.poses.size(), 2U) << names;
+    EXPECT_EQ(track.poses[0].stamp_ns, 1'700'000'000'999'999'999) << names;
+    EXPECT_EQ(track.poses[1].stamp_ns, 1'700'000'001'000'000'005) << names;
+  }
+  EXPECT_NE(refusal("header.stamp.secs,x,y,z\n1,0,0,0\n2,0,0,0\n").find("is half of a stamp"), std::string::npos);
+  EXPECT_NE(refusal("secs,nsecs,x,y,z\n1,1000000000,0,0,0\n").find("are no stamp"), std::string::npos);
+}
+
+TEST(TrajectoryText, UnitsOfColumnsAreHeededOrRefused) {
+  const auto first = [](const std::string& names, const std::string& row) { return read(names + "\n" + row + "\n").poses[0]; };
+  EXPECT_NEAR(first("t [min],x [ft],y [in],z (km)", "2,1,1,0.001").stamp, 120, 1e-12);
+  EXPECT_EQ(first("t [min],x [ft],y [in],z (km)", "2,1,1,0.001").stamp_ns, 120'000'000'000);
+  const Vec3 place = first("t [min],x [ft],y [in],z (km)", "2,1,1,0.001").world_from_body.translation;
+  EXPECT_NEAR(place.x, 0.3048, 1e-12);
+  EXPECT_NEAR(place.y, 0.0254, 1e-12);
+  EXPECT_NEAR(place.z, 1, 1e-12);
+  EXPECT_EQ(first("t [microsec],x,y,z", "1500000,0,0,0").stamp_ns, 1'500'000'000);
+  for (const char* names : {"t,x [furlong],y,z", "t [fortnight],x,y,z"})
+    EXPECT_NE(refusal(std::string(names) + "\n0,0,0,0\n").find("has an unknown unit"), std::string::npos) << names;
+}
+
 TEST(TrajectoryText, EurocWithoutNamesIsKnownByItsNanoseconds) {
   const RecordedTrajectory track = read(line_of("1403636579763555584", "wxyz", ","));
   EXPECT_EQ(track.format.substr(0, 5), "EuRoC");

@@ -41,6 +41,24 @@ bool fisheye_grows(const CameraScenario& camera) {
   return true;
 }
 
+// From the principal point to the farther edge of the image, at a focal length of 1; the corners are farther away.
+double edge_of(const Intrinsics& in) {
+  return std::max(std::max(in.cx + 0.5, in.width - 0.5 - in.cx) / in.fx, std::max(in.cy + 0.5, in.height - 0.5 - in.cy) / in.fy);
+}
+
+// How far from the middle rays of a plumb_bob come, at a focal length of 1, up to `edge`: beyond, its curve turns back.
+double plumb_bob_reach(const LensScenario& l, double edge) {
+  double reach = 0;
+  for (double r = 0; reach < edge && r < 50; r += 1e-3) {
+    const double r2 = r * r;
+    if (1 + r2 * (3 * l.k1 + r2 * (5 * l.k2 + r2 * 7 * l.k3)) <= 0) break;
+    reach = r * (1 + r2 * (l.k1 + r2 * (l.k2 + r2 * l.k3)));
+  }
+  return reach;
+}
+
+constexpr double kWidestEdge = 11.43;  // tan(85 degrees)
+
 constexpr double kMostNoiseEvents = 1e8;  // of an event camera from one frame to the next: 1.6 GB
 
 // trajectory_hz: of a camera without a rate of its own.
@@ -59,6 +77,12 @@ void check_camera(const MountedCamera& camera, double trajectory_hz, std::vector
   if (l.model == LensKind::fisheye && !fisheye_grows(c))
     add(at + "lens", "the lens folds back within the field of view",
         "a curve that grows up to " + at + "fov_deg / 2", "");
+  const double edge = edge_of(c.intrinsics());
+  if (l.model != LensKind::fisheye && l.fx && edge > kWidestEdge)
+    add(at + "lens.fx", "too short for a flat image of this size", "at most 170 degrees of view", "or " + at + "lens.model = \"fisheye\"");
+  if (l.model == LensKind::plumb_bob && edge <= kWidestEdge && plumb_bob_reach(l, edge) < 0.99 * edge)
+    add(at + "lens", "the lens folds back within the image", "coefficients whose curve grows up to its edges",
+        "pixels beyond would see nothing");
   const bool bent = l.k1 != 0 || l.k2 != 0 || l.k3 != 0 || l.k4 != 0 || l.p1 != 0 || l.p2 != 0;
   if (l.model == LensKind::pinhole && bent)
     add(at + "lens.model", "a pinhole has no distortion", "\"plumb_bob\" or \"fisheye\"", "");

@@ -161,6 +161,19 @@ TEST(Camera, ContradictionsAreNamed) {
               s.cameras[0].camera.lens.k1 = -2;
             }).find("folds back"),
             std::string::npos);
+  const auto plumb_bob = [&](double k1, double k2, double k3, double fov_deg, std::optional<double> fx = {}) {
+    return mistake([&](Scenario& s) {
+      CameraScenario& c = s.cameras[0].camera;
+      c.fov_deg = fov_deg;
+      c.lens.model = LensKind::plumb_bob;
+      c.lens.k1 = k1, c.lens.k2 = k2, c.lens.k3 = k3, c.lens.fx = fx;
+    });
+  };
+  EXPECT_NE(plumb_bob(-0.5, 0, 0, 90).find("folds back within the image"), std::string::npos);
+  EXPECT_EQ(plumb_bob(-0.5, 0, 0, 50), "");
+  EXPECT_EQ(plumb_bob(-0.283, 0.074, 0, 80), "") << "of the EuRoC data set";
+  EXPECT_EQ(plumb_bob(0.3, 0, 0, 120), "");
+  EXPECT_NE(plumb_bob(0, 0, 0, 90, 1).find("camera.lens.fx: too short"), std::string::npos);
   EXPECT_NE(mistake([](Scenario& s) { s.cameras[0].camera.lens.k1 = 0.1; }).find("no distortion"),
             std::string::npos);
   EXPECT_NE(mistake([](Scenario& s) { s.cameras[0].camera.shutter.motion_blur = true; })

@@ -131,6 +131,8 @@ void add_building(const BuildingSpec& b, std::vector<IdleKey>& keys) {
   cause.off(c.accelerogram.empty(), "accelerogram", "empty", {"accelerogram_step"});
   cause.off(!(c.blast > 0), "blast", "0", {"blast_at"});
   IdleKeys("pile.building.cause.vehicle.", keys).off(!(c.vehicle.mass > 0), "mass", "0");
+  IdleKeys("pile.building.cause.vehicle.", keys)
+      .off(c.vehicle.mass > 0 && !(c.vehicle.speed > 0), "speed", "0", {"mass", "direction_deg", "stiffness", "height", "i", "j", "part"});
 }
 
 // "a robot of another kind has it": the figures of all kinds are keys of each robot.
@@ -159,6 +161,10 @@ std::vector<IdleKey> list_idle_keys(const MissionForm& form) {
   std::vector<IdleKey> keys;
   IdleKeys("pile.", keys).off(s.pile.layers == 0, "layers", "0",
                               {"pieces_per_layer", "spawn_position", "spawn_bounds", "spawn_density"});
+  IdleKeys terrain("pile.terrain.", keys);
+  terrain.against(s.pile.terrain.file.empty(), "pile.terrain.file is not given", {"metres_per_unit", "up"});
+  terrain.against(s.pile.terrain.heights.empty(), "pile.terrain.heights are not given", {"columns", "rows", "spacing"});
+  terrain.against(!s.pile.terrain.given(), "there is no terrain", {"position", "friction", "look"});
   add_mix(s.pile.mix, keys);
   add_placed(s.pile.placed, keys);
   add_building(s.pile.building, keys);
@@ -177,9 +183,12 @@ std::vector<IdleKey> list_idle_keys(const MissionForm& form) {
   IdleKeys path("trajectory.", keys);
   path.off(s.trajectory.plan == Plan::ghost, "plan", "\"ghost\"", {"radius"});
   path.off(!s.trajectory.ride.on(), "ride.robot", "not given", {"ride"});
+  path.against(s.trajectory.waypoints.size() == 1, "there is one waypoint: a second one at the same place holds the camera there",
+               {"duration", "speed"});
   for (std::size_t i = 0; i < s.robots.size(); ++i) add_robot("robots[" + std::to_string(i + 1) + "].", s.robots[i], keys);
   IdleKeys("robot_run.", keys).against(s.robots.empty(), "the mission has no robots", {"duration", "control_hz", "debris", "live_light"});
-  IdleKeys("outputs.", keys).off(!s.outputs.rawlog, "rawlog", "false", {"rawlog_format"});
+  IdleKeys("outputs.", keys).off(!s.outputs.rawlog, "rawlog", "false", {"rawlog_format", "rawlog_gzip"});
+  IdleKeys("outputs.", keys).against(!s.outputs.bag && !s.outputs.mcap, "there is neither a bag nor an MCAP file", {"depth", "pictures", "vectors"});
   return keys;
 }
 

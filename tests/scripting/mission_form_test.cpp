@@ -160,6 +160,18 @@ TEST(MissionForm, SaysWhichKeysOfAPathACauseAndAStreetNothingReads) {
   EXPECT_EQ(sentences_of("pile = { mix = { { asset = \"a\", scale = { 1, 2 }, typical = 1.5 } } }"),
             "m.lua:2: pile.mix[1].typical: has no effect, because pile.mix[1].spread is \"uniform\"\n");
   EXPECT_EQ(sentences_of("pile = { mix = { { asset = \"a\", spread = \"normal\", typical = 1.5 } } }"), "");
+  const auto about = [](const std::string& text) {
+    const std::string said = sentences_of(text);
+    return said.substr(0, said.find(": has no effect"));
+  };
+  EXPECT_EQ(about("trajectory = { duration = 3, waypoints = { { position = { 0, 0, 1 } } } }"), "m.lua:2: trajectory.duration");
+  EXPECT_EQ(about("trajectory = { duration = 3, waypoints = { { position = { 0, 0, 1 } }, { position = { 1, 0, 1 } } } }"), "");
+  EXPECT_EQ(about("outputs = { bag = false, depth = \"32FC1\" }"), "m.lua:2: outputs.depth");
+  EXPECT_EQ(about("outputs = { bag = false, mcap = true, depth = \"32FC1\" }"), "");
+  EXPECT_EQ(about("pile = { terrain = { file = \"a.obj\", spacing = 2 } }"), "m.lua:2: pile.terrain.spacing");
+  EXPECT_EQ(about("pile = { terrain = { columns = 2, rows = 2, heights = { 0, 0, 0, 0 }, up = \"y\" } }"), "m.lua:2: pile.terrain.up");
+  EXPECT_EQ(about("pile = { terrain = { friction = 0.5 } }"), "m.lua:2: pile.terrain.friction");
+  EXPECT_EQ(about("pile = { building = { storeys = 2, cause = { vehicle = { mass = 9000, speed = 0 } } } }"), "") << "its speed is stated";
   const std::string unlit = "surroundings = { type = \"street\", lamps = \"off\", lit_windows = 0.5 }";
   EXPECT_EQ(sentences_of(unlit), "");
   EXPECT_EQ(sentences_of(unlit, {"surroundings.lit_windows=1"}),

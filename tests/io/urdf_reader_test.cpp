@@ -128,7 +128,7 @@ TEST(UrdfReader, RangesNeedNotHoldZero) {
 // What is larger has wrong units, and takes all memory of what lays it out.
 TEST(UrdfReader, PlacesAndSizesHaveALimit) {
   const auto link = [](const std::string& inside) { return "<robot name=\"r\"><link name=\"a\">" + inside + "</link></robot>"; };
-  const auto shape = [&](const std::string& shape) { return mistake_in(link("<collision><geometry>" + shape + "</geometry></collision>")); };
+  const auto shape = [&](const std::string& inner) { return mistake_in(link("<collision><geometry>" + inner + "</geometry></collision>")); };
   for (const char* far : {"1e300 0 0", "0 -10001 0", "0 0 1e20"})
     EXPECT_TRUE(holds(mistake_in(link("<visual><origin xyz=\"" + std::string(far) + "\"/><geometry><box size=\"1 1 1\"/></geometry></visual>")),
                       "expected numbers from -10000 to 10000"))

@@ -7,22 +7,43 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 #include "io/image/data_picture.h"
 #include "io/image/picture_decoder.h"
+#include "io/import/text_scan.h"
 #include "kernel/base/error.h"
 #include "kernel/base/system/disk_cache.h"
 #include "kernel/base/system/isolated_worker.h"
 #include "kernel/base/tables/text_table.h"
+#include "kernel/base/text.h"
 
 namespace rubble {
 namespace {
 
-// OGC GeoTIFF 1.1, and GDAL's tag of what stands for no value.
+// OGC GeoTIFF 1.1, and GDAL's tags: its XML about the channels, and what stands for no value.
 constexpr std::uint32_t kPixelScaleTag = 33550, kTiepointTag = 33922, kTransformTag = 34264, kGeoKeysTag = 34735,
-                        kNoDataTag = 42113;
-constexpr std::uint16_t kModelTypeKey = 1024, kLinearUnitKey = 3076, kVerticalUnitKey = 4099;
-constexpr std::uint16_t kGeographic = 2, kFoot = 9002, kSurveyFoot = 9003;
+                        kGeoDoublesTag = 34736, kMetadataTag = 42112, kNoDataTag = 42113;
+constexpr std::uint16_t kModelTypeKey = 1024, kLinearUnitKey = 3076, kLinearSizeKey = 3077, kVerticalUnitKey = 4099;
+constexpr std::uint16_t kGeographic = 2, kMetre = 9001, kKilometre = 9036, kUserDefined = 32767;
+
+struct LengthUnit {
+  std::uint16_t code = 0;  // of EPSG
+  double metres = 0;
+};
+constexpr LengthUnit kLengthUnits[] = {{kMetre, 1},
+                                       {9002, 0.3048},                  // foot
+                                       {9003, 1200.0 / 3937},           // US survey foot
+                                       {9005, 0.3047972654},            // Clarke's foot
+                                       {9014, 1.8288},                  // fathom
+                                       {9030, 1852},                    // nautical mile
+                                       {9035, 5280 * 1200.0 / 3937},    // US survey mile
+                                       {kKilometre, 1000},
+                                       {9037, 3 * 0.3047972654},        // Clarke's yard
+                                       {9040, 36 / 39.370147},          // British yard of Sears 1922
+                                       {9041, 12 / 39.370147},          // British foot of Sears 1922
+                                       {9093, 1609.344},                // statute mile
+                                       {9096, 0.9144}};                 // yard
 constexpr tmsize_t kMostTiffMemory = tmsize_t(1) << 30;  // of one allocation; unit: byte
 
 struct TiffSource {
@@ -92,14 +113,19 @@ class TiffFile {
     return TIFFGetFieldDefaulted(tiff_, tag, &value) ? value : fallback;
   }
   std::vector<double> doubles_tag(std::uint32_t tag) const;
-  std::uint16_t geo_key(std::uint16_t key) const;
+  std::string text_tag(std::uint32_t tag) const;
+  std::optional<std::uint16_t> find_geo_key(std::uint16_t key, std::uint16_t tag) const;
+  std::uint16_t geo_key(std::uint16_t key) const { return find_geo_key(key, 0).value_or(std::uint16_t(0)); }
+  double metres_of(std::uint16_t key, const char* name, double user_defined) const;
   void read_form();
   double sample(const unsigned char* at) const;
   float pixel(const unsigned char* row, std::size_t x) const;
   void read_tiles(DataPicture& out);
   void read_strips(DataPicture& out);
   void read_ground(DataPicture& out) const;
+  void read_units(PictureGround& ground, DataPicture& out) const;
   void mask_no_data(DataPicture& out) const;
+  void apply_scale(DataPicture& out) const;
 
   TiffSource source_;
   TIFF* tiff_ = nullptr;
@@ -187,16 +213,58 @@ std::vector<double> TiffFile::doubles_tag(std::uint32_t tag) const {
   return {values, values + count};
 }
 
-// 0: the file does not say.
-std::uint16_t TiffFile::geo_key(std::uint16_t key) const {
+std::string TiffFile::text_tag(std::uint32_t tag) const {
+  std::uint32_t count = 0;
+  const char* text = nullptr;
+  const TIFFField* field = TIFFFindField(tiff_, tag, TIFF_ANY);
+  if (!field || TIFFFieldDataType(field) != TIFF_ASCII || !TIFFFieldPassCount(field)) return {};
+  if (!TIFFGetField(tiff_, tag, &count, &text) || !text) return {};
+  return {text, strnlen(text, count)};
+}
+
+// tag: 0: the key has the value itself; else the tag of the values, among which the answer is the place of the key's.
+std::optional<std::uint16_t> TiffFile::find_geo_key(std::uint16_t key, std::uint16_t tag) const {
   std::uint32_t count = 0;
   const std::uint16_t* values = nullptr;
   const TIFFField* field = TIFFFindField(tiff_, kGeoKeysTag, TIFF_ANY);
-  if (!field || TIFFFieldDataType(field) != TIFF_SHORT || !TIFFFieldPassCount(field)) return 0;
-  if (!TIFFGetField(tiff_, kGeoKeysTag, &count, &values) || !values || count < 4) return 0;
+  if (!field || TIFFFieldDataType(field) != TIFF_SHORT || !TIFFFieldPassCount(field)) return std::nullopt;
+  if (!TIFFGetField(tiff_, kGeoKeysTag, &count, &values) || !values || count < 4) return std::nullopt;
   for (std::uint32_t i = 4; i + 3 < count; i += 4)
-    if (values[i] == key && values[i + 1] == 0) return values[i + 3];
-  return 0;
+    if (values[i] == key && values[i + 1] == tag) return values[i + 3];
+  return std::nullopt;
+}
+
+// user_defined: metres of a unit that the file itself defines; not above 0: it defines none.
+double TiffFile::metres_of(std::uint16_t key, const char* name, double user_defined) const {
+  const std::uint16_t code = geo_key(key);
+  if (code == 0) return 1;
+  if (code == kUserDefined && user_defined > 0 && std::isfinite(user_defined)) return user_defined;
+  for (const LengthUnit& unit : kLengthUnits)
+    if (unit.code == code) return unit.metres;
+  throw RunError("is a GeoTIFF whose " + std::string(name) + " (key " + std::to_string(key) +
+                 ") is not known: expected the EPSG code of a length, such as 9001 (metre) or 9003 (US survey foot), "
+                 "found " + std::to_string(code) + (code == kUserDefined ? " without its size" : "") +
+                 "; convert it to metres");
+}
+
+// Pixels and heights in metres.
+void TiffFile::read_units(PictureGround& ground, DataPicture& out) const {
+  if (!ground.degrees) {
+    const std::uint16_t code = geo_key(kLinearUnitKey);
+    const bool metric = code == 0 || code == kMetre || code == kKilometre;
+    if (!metric && geo_key(kVerticalUnitKey) == 0)
+      throw RunError("is a GeoTIFF with ProjLinearUnits (key 3076) of " + std::to_string(code) +
+                     " and without VerticalUnits (key 4099), so that its heights may be in feet or metres: expected "
+                     "9001 (metre), 9003 (US survey foot) or another EPSG code there; set it, or convert the file to "
+                     "metres");
+    const std::vector<double> sizes = doubles_tag(kGeoDoublesTag);
+    const auto place = find_geo_key(kLinearSizeKey, std::uint16_t(kGeoDoublesTag));
+    const double metres = metres_of(kLinearUnitKey, "ProjLinearUnits", place && *place < sizes.size() ? sizes[*place] : 0);
+    for (double* length : {&ground.pixel_x, &ground.pixel_y, &ground.left, &ground.top}) *length *= metres;
+  }
+  const double metres = metres_of(kVerticalUnitKey, "VerticalUnits", 0);
+  if (metres != 1)
+    for (float& value : out.values) value = float(double(value) * metres);
 }
 
 void TiffFile::read_ground(DataPicture& out) const {
@@ -214,23 +282,40 @@ void TiffFile::read_ground(DataPicture& out) const {
   if (!(ground.pixel_x > 0) || !(ground.pixel_y > 0) || !std::isfinite(ground.left) || !std::isfinite(ground.top))
     throw RunError("is a GeoTIFF whose pixels have no size; save it with north up");
   ground.degrees = geo_key(kModelTypeKey) == kGeographic;
-  for (const std::uint16_t key : {kLinearUnitKey, kVerticalUnitKey})
-    if (const std::uint16_t unit = geo_key(key); unit == kFoot || unit == kSurveyFoot)
-      throw RunError("is a GeoTIFF in feet; convert it to metres");
+  read_units(ground, out);
   out.ground = ground;
 }
 
 void TiffFile::mask_no_data(DataPicture& out) const {
-  std::uint32_t count = 0;
-  const char* text = nullptr;
-  const TIFFField* field = TIFFFindField(tiff_, kNoDataTag, TIFF_ANY);
-  if (!field || TIFFFieldDataType(field) != TIFF_ASCII || !TIFFFieldPassCount(field)) return;
-  if (!TIFFGetField(tiff_, kNoDataTag, &count, &text) || !text) return;
-  std::string_view word(text, strnlen(text, count));
+  const std::string word = text_tag(kNoDataTag);
   const auto none = parse_number(trimmed(word));
   if (!none) return;
   for (float& value : out.values)
     if (value == float(*none)) value = std::numeric_limits<float>::quiet_NaN();
+}
+
+// What GDAL's metadata say of the first channel: <Item name="SCALE" sample="0" role="scale">0.1</Item>, and OFFSET.
+void TiffFile::apply_scale(DataPicture& out) const {
+  double scale = 1, offset = 0;
+  const std::string metadata = text_tag(kMetadataTag);
+  std::string role;
+  for (XmlScanner tags(metadata); tags.next();) {
+    if (!tags.closes()) {
+      const std::string sample = tags.attribute("sample");
+      role = sample.empty() || sample == "0" ? tags.attribute("role") : "";
+    } else if (role == "scale" || role == "offset") {
+      const std::string text = tags.text();
+      const auto value = parse_number(trimmed(text));
+      if (!value || !std::isfinite(*value) || (role == "scale" && *value == 0))
+        throw RunError("is a GeoTIFF whose metadata (tag 42112) have a bad " + role + ": expected a number" +
+                       (role == "scale" ? " other than 0" : "") + ", found `" + printable(trimmed(text)) +
+                       "`; correct it by gdal_edit");
+      (role == "scale" ? scale : offset) = *value;
+      role.clear();
+    }
+  }
+  if (scale == 1 && offset == 0) return;
+  for (float& value : out.values) value = float(double(value) * scale + offset);
 }
 
 DataPicture TiffFile::read() {
@@ -244,6 +329,8 @@ DataPicture TiffFile::read() {
   if (colours_ == PHOTOMETRIC_MINISWHITE && levels)
     for (float& value : out.values) value = float(out.white) - value;
   mask_no_data(out);
+  const bool on_map = doubles_tag(kPixelScaleTag).size() >= 2 || doubles_tag(kTransformTag).size() >= 8;
+  if (on_map || out.white == 0) apply_scale(out);  // grey levels have no unit
   read_ground(out);
   return out;
 }

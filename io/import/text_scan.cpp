@@ -146,6 +146,7 @@ std::size_t end_of_markup(std::string_view xml, std::size_t at) {
 }
 
 bool XmlScanner::next() {
+  text_ = all_.size() - rest_.size();
   for (;;) {
     const std::size_t begin = rest_.find('<');
     if (begin == std::string_view::npos) return false;
@@ -184,6 +185,21 @@ std::string XmlScanner::attribute(std::string_view name) const {
   for (const auto& [key, value] : attributes_)
     if (key == name) return decode_entities(value);
   return {};
+}
+
+std::string XmlScanner::text() const {
+  static constexpr std::string_view kLiteral = "<![CDATA[", kLiteralEnd = "]]>";
+  std::string out;
+  for (std::size_t at = text_; at < at_;) {
+    const bool markup = all_[at] == '<';
+    const std::size_t end = markup ? end_of_markup(all_, at) : std::min(all_.find('<', at), at_);
+    if (!markup)
+      out += decode_entities(all_.substr(at, end - at));
+    else if (all_.substr(at, kLiteral.size()) == kLiteral)
+      out += all_.substr(at + kLiteral.size(), end - at - kLiteral.size() - kLiteralEnd.size());
+    at = end;
+  }
+  return out;
 }
 
 int XmlScanner::line() const { return 1 + int(std::count(all_.begin(), all_.begin() + std::ptrdiff_t(at_), '\n')); }

@@ -42,7 +42,7 @@ std::optional<double> read_real(std::string_view word);
 std::optional<std::int64_t> read_integer(std::string_view word);
 
 // The tags of an XML document one after the other, for formats of few elements. No namespaces are resolved, no entities
-// but the five of XML and numbers, and text between tags is passed over.
+// but the five of XML and numbers.
 class XmlScanner {
  public:
   explicit XmlScanner(std::string_view xml) : rest_(xml), all_(xml) {}
@@ -57,12 +57,14 @@ class XmlScanner {
   std::string attribute(std::string_view name) const;
   const std::vector<std::pair<std::string_view, std::string_view>>& attributes() const { return attributes_; }
   int line() const;  // of the tag; 1-based
+  // Between the tag before and this one, without comments; of CDATA the content.
+  std::string text() const;
 
  private:
   void read_attributes(std::string_view tag);
 
   std::string_view rest_, all_, name_;
-  std::size_t at_ = 0;  // of the tag
+  std::size_t text_ = 0, at_ = 0;  // where the text before the tag begins, and the tag
   std::vector<std::pair<std::string_view, std::string_view>> attributes_;
   bool closes_ = false, empty_ = false;
 };

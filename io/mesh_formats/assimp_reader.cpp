@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "io/import/text_scan.h"
+#include "io/mesh_formats/collada_textures.h"
 #include "kernel/base/read_file.h"
 #include "kernel/base/system/file_sandbox.h"
 #include "kernel/base/text.h"
@@ -73,13 +74,27 @@ std::string without_looks(const std::string& collada) {
 }
 
 std::optional<FileUp> find_up_axis(const std::string& xml) {
-  const std::size_t at = xml.find("<up_axis>");
-  if (at == std::string::npos) return std::nullopt;
-  const std::size_t begin = at + 9, end = std::min(xml.find('<', begin), xml.size());
-  const std::string_view axis = trimmed(std::string_view(xml).substr(begin, end - begin));
-  if (axis == "X_UP") return FileUp::x;
-  if (axis == "Y_UP") return FileUp::y;
-  return axis == "Z_UP" ? std::optional(FileUp::z) : std::nullopt;
+  XmlScanner tags(xml);
+  int depth = 0;
+  bool in_asset = false;  // of the whole document: directly below the root
+  while (tags.next()) {
+    if (!tags.closes()) {
+      if (tags.is_empty()) continue;
+      in_asset = in_asset || (depth == 1 && tags.name() == "asset");
+      ++depth;
+      continue;
+    }
+    --depth;
+    if (!in_asset) continue;
+    if (depth == 1) return std::nullopt;  // </asset>
+    if (depth != 2 || tags.name() != "up_axis") continue;
+    const std::string text = tags.text();
+    const std::string_view axis = trimmed(text);
+    if (axis == "X_UP") return FileUp::x;
+    if (axis == "Y_UP") return FileUp::y;
+    return axis == "Z_UP" ? std::optional(FileUp::z) : std::nullopt;
+  }
+  return std::nullopt;
 }
 
 namespace {
@@ -120,6 +135,9 @@ class AssimpReader {
     if (extension == ".dae") {
       repaired = repair_collada(read_file(path_));
       out_.up = find_up_axis(repaired);
+      ColladaTextures textures = prepare_textures(repaired);
+      repaired = std::move(textures.xml);
+      for (const std::string& note : textures.notes) out_.note(note);
       importer_.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     }
     importer_.SetIOHandler(new GuardedFiles(path_, repaired, refused_));  // the importer owns it

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "io/import/uri.h"
 #include "kernel/base/error.h"
@@ -15,6 +16,7 @@ using Json = nlohmann::json;
 
 // Extensions of materials and textures that are applied, or change nothing that is drawn.
 constexpr const char* kApplied[] = {"KHR_materials_pbrSpecularGlossiness", "KHR_materials_unlit", "KHR_texture_transform"};
+constexpr std::int64_t kClampToEdge = 33071, kMirroredRepeat = 33648;  // of OpenGL
 
 class MaterialReader {
  public:
@@ -78,6 +80,8 @@ class MaterialReader {
     if (const Json* bumps = gltf_member(from, "normalTexture"); bumps && gltf_number(*bumps, "scale", 1) != 1)
       material.left_out.push_back("the scale of the image of normals is not applied");
     read_extensions(from, material);
+    for (const std::string& clause : wrapping_) material.left_out.push_back(clause);
+    wrapping_.clear();
     return material;
   }
 
@@ -139,11 +143,25 @@ class MaterialReader {
     const Json& texture = document_.find("textures", gltf_index(*use, "index"), user);
     if (document_.count("images") == 0) return out;
     out.image = image_of(texture, user);
+    note_wrapping(texture);
     out.place.uv_set = unsigned(std::max<std::int64_t>(0, gltf_index(*use, "texCoord")));
     const Json* extensions = gltf_member(*use, "extensions");
     const Json* moved = extensions ? gltf_member(*extensions, "KHR_texture_transform") : nullptr;
     if (moved) read_place(*moved, out.place);
     return out;
+  }
+
+  void note_wrapping(const Json& texture) {
+    const std::int64_t index = gltf_index(texture, "sampler");
+    if (index < 0 || std::size_t(index) >= document_.count("samplers")) return;
+    const Json& sampler = document_.json()["samplers"][std::size_t(index)];
+    for (const char* key : {"wrapS", "wrapT"}) {
+      const Json* mode = sampler.is_object() ? gltf_member(sampler, key) : nullptr;
+      for (const auto& [value, name] :
+           {std::pair(kClampToEdge, "CLAMP_TO_EDGE"), std::pair(kMirroredRepeat, "MIRRORED_REPEAT")})
+        if (mode && *mode == value)
+          wrapping_.insert(std::string("the wrapping ") + name + " of images is not drawn: they repeat");
+    }
   }
 
   static void read_place(const Json& from, TexturePlace& place) {
@@ -157,6 +175,7 @@ class MaterialReader {
   const GltfDocument& document_;
   ImportedScene& scene_;
   std::string element_;
+  std::set<std::string> wrapping_;  // of the textures of this material
 };
 
 }  // namespace

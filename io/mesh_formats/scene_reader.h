@@ -48,7 +48,8 @@ std::string repair_collada(const std::string& xml);
 // The document without images, effects and materials: for one whose looks assimp refuses, so that the shape is left.
 std::string without_looks(const std::string& collada);
 
-// What <up_axis> states; nothing where there is none. (The standard's default, Y_UP, is not taken for a statement.)
+// What <up_axis> of the document's own <asset> states; nothing where there is none. (The standard's default,
+// Y_UP, is not taken for a statement.)
 std::optional<FileUp> find_up_axis(const std::string& xml);
 
 }  // namespace rubble

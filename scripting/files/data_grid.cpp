@@ -25,8 +25,16 @@ constexpr const char *kThinnedBy = "averaged over blocks of ", *kInDegrees = "ce
 
 [[noreturn]] void decline_grid(const std::string& what) { throw std::runtime_error(what); }
 
+// Any line of the head may be the first.
 bool is_esri_grid(std::string_view bytes) {
-  return lower_case(trimmed(skip_byte_order_mark(bytes.substr(0, 64)))).rfind("ncols", 0) == 0;
+  static constexpr const char* kKeys[] = {"ncols",     "nrows",    "xllcorner",    "xllcenter", "yllcorner",
+                                          "yllcenter", "cellsize", "nodata_value", "dx",        "dy"};
+  const std::string text = lower_case(trimmed(skip_byte_order_mark(bytes.substr(0, 64))));
+  const std::string_view line = std::string_view(text).substr(0, text.find_first_of("\r\n"));
+  const std::size_t end = line.find_first_of(" \t,;");
+  if (end == std::string_view::npos) return line == "ncols";
+  const bool assigned = trimmed(line.substr(end)).substr(0, 1) == "=";  // a script
+  return !assigned && std::find(std::begin(kKeys), std::end(kKeys), line.substr(0, end)) != std::end(kKeys);
 }
 
 DataGrid grid_of_picture(DataPicture picture) {

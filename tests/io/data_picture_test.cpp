@@ -140,8 +140,54 @@ TEST(DataPicture, GeoTiffKeepsItsScaleAndPlace) {
   EXPECT_EQ(data.values[3], 4);
   const auto degrees = TiffBytes(1, 1, 2, std::vector<std::int16_t>{3}).ground(0.0003, 0.0003, 8, 47).geo_keys(2);
   EXPECT_TRUE(decode_data_picture(degrees.bytes()).ground->degrees);
-  const auto feet = TiffBytes(1, 1, 2, std::vector<std::int16_t>{3}).ground(30, 30, 8, 47).geo_keys(1, 9003);
-  EXPECT_NE(refusal_of(feet.bytes()).find("feet"), std::string::npos);
+}
+
+TEST(DataPicture, UnitsOfAGeoTiffBecomeMetres) {
+  const auto tiff = [](int unit, int vertical, double size = 0) {
+    return TiffBytes(1, 1, 2, std::vector<std::int16_t>{3}).ground(2, 2, 8, 47).units(unit, vertical, size).bytes();
+  };
+  const struct {
+    int unit, vertical;
+    double size, pixel, height;
+  } cases[] = {{0, 0, 0, 2, 3}, {9001, 0, 0, 2, 3}, {9036, 0, 0, 2000, 3}, {9001, 9002, 0, 2, 0.9144},
+               {9002, 9001, 0, 0.6096, 3}, {9003, 9003, 0, 2400.0 / 3937, 3600.0 / 3937},
+               {9005, 9001, 0, 0.6095945308, 3}, {9014, 9014, 0, 3.6576, 5.4864},
+               {9030, 9001, 0, 3704, 3}, {9035, 9001, 0, 3218.694437389, 3}, {9037, 9001, 0, 1.8287835924, 3},
+               {9040, 9001, 0, 1.828796829, 3}, {9041, 9001, 0, 0.609598943, 3}, {9093, 9096, 0, 3218.688, 2.7432},
+               {32767, 9001, 0.5, 1, 3}};
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.unit);
+    const DataPicture data = decode_data_picture(tiff(c.unit, c.vertical, c.size));
+    ASSERT_TRUE(data.ground);
+    EXPECT_NEAR(data.ground->pixel_x, c.pixel, 1e-6);
+    EXPECT_NEAR(data.ground->top, c.pixel / 2 * 47, 1e-4);
+    EXPECT_NEAR(data.values[0], c.height, 1e-6);
+  }
+  const auto refused = [&](int unit, int vertical, const char* why, double size = 0) {
+    const std::string refusal = refusal_of(tiff(unit, vertical, size));
+    EXPECT_NE(refusal.find(why), std::string::npos) << refusal;
+  };
+  refused(9062, 9001, "whose ProjLinearUnits (key 3076) is not known: expected the EPSG code of a length");
+  refused(9001, 9102, "whose VerticalUnits (key 4099) is not known");
+  refused(32767, 9001, "found 32767 without its size");
+  refused(32767, 9001, "found 32767 without its size", -1);
+  refused(9003, 0, "without VerticalUnits (key 4099)");
+}
+
+TEST(DataPicture, ScaleAndOffsetOfATiffAreApplied) {
+  const auto tiff = [](const std::string& items) {
+    return TiffBytes(2, 1, 2, std::vector<std::int16_t>{30, -1}).ground(2, 2, 8, 47)
+        .metadata("<GDALMetadata>" + items + "</GDALMetadata>").no_data("-1").bytes();
+  };
+  const std::string scale = "<Item name=\"SCALE\" sample=\"0\" role=\"scale\">",
+                    other = "<Item name=\"SCALE\" sample=\"1\" role=\"scale\">9</Item>";
+  const DataPicture data = decode_data_picture(
+      tiff("<Item name=\"A\">7</Item>" + scale + "0.5</Item>" +
+           "<Item name=\"OFFSET\" sample=\"0\" role=\"offset\">100</Item>" + other));
+  EXPECT_EQ(data.values[0], 115);
+  EXPECT_TRUE(std::isnan(data.values[1])) << "no value is no height";
+  const std::string refusal = refusal_of(tiff(scale + "x</Item>"));
+  EXPECT_NE(refusal.find("have a bad scale: expected a number other than 0, found `x`"), std::string::npos) << refusal;
 }
 
 TEST(DataPicture, OpenExrOfOneChannelOrColours) {

@@ -120,6 +120,26 @@ TEST_F(Gltf, TexturePlacesMayBeIntegers) {
     }
 }
 
+TEST_F(Gltf, WrappingThatIsNotDrawnIsNoted) {
+  write_png(folder_ / "t.png", RgbImage{2, 2, std::vector<std::uint8_t>(12, 90)});
+  const auto notes_with = [&](const std::string& sampler) {
+    GltfFile file;
+    const int positions = file.floats(kSolid, "VEC3", 3);
+    const int indices = file.add<std::uint8_t>(kFacesOfSolid, "SCALAR", 5121, false, 1);
+    const int places = file.floats({0, 0, 1, 0, 0, 1, 1, 1}, "VEC2", 2);
+    load(file, std::string(kNode) + R"(,"images":[{"uri":"t.png"}],"samplers":[)" + sampler + R"(],
+"textures":[{"source":0,"sampler":0}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":)" +
+                   std::to_string(positions) + ",\"TEXCOORD_0\":" + std::to_string(places) +
+                   "},\"indices\":" + std::to_string(indices) + ",\"material\":0}]}]");
+    return notes();
+  };
+  EXPECT_EQ(notes_with(R"({"wrapS":10497})").find("wrapping"), std::string::npos);
+  EXPECT_EQ(notes_with("").find("wrapping"), std::string::npos) << "a sampler that is not there";
+  EXPECT_NE(notes_with(R"({"wrapT":33648})").find("the wrapping MIRRORED_REPEAT of images is not drawn"), std::string::npos);
+  EXPECT_NE(notes_with(R"({"wrapS":33071})").find("the wrapping CLAMP_TO_EDGE of images is not drawn"), std::string::npos);
+}
+
 TEST_F(Gltf, BuffersMayHaveEncodedNamesOrLieInTheFile) {
   GltfFile file;
   const int positions = file.floats(kSolid, "VEC3", 3), indices = file.add<std::uint8_t>(kFacesOfSolid, "SCALAR", 5121, false, 1);

@@ -296,6 +296,12 @@ TEST_F(MeshFormats, ColladaStandsAsItSays) {
   } cases[] = {{"<up_axis>Z_UP</up_axis>", {4, 2, 1}, {4, 2, 1}, {4, 2, 1}},
                {"<up_axis> Y_UP\n</up_axis>", {4, 1, 2}, {4, 2, 1}, {4, 1, 2}},
                {"<up_axis>X_UP</up_axis>", {2, 1, 4}, {4, 2, 1}, {2, 1, 4}},
+               {"<!-- <up_axis>X_UP</up_axis> --><up_axis>Y_UP</up_axis>", {4, 1, 2}, {4, 2, 1}, {4, 1, 2}},
+               {"<extra><technique profile=\"x\"><up_axis>X_UP</up_axis></technique></extra><up_axis>Y_UP</up_axis>",
+                {4, 1, 2}, {4, 2, 1}, {4, 1, 2}},
+               {"<up_axis><!-- c -->Y_UP</up_axis>", {4, 1, 2}, {4, 2, 1}, {4, 1, 2}},
+               {"<up_axis ><![CDATA[Y_UP]]></up_axis>", {4, 1, 2}, {4, 2, 1}, {4, 1, 2}},
+               {"<title><![CDATA[<up_axis>X_UP</up_axis>]]></title>", {4, 2, 1}, {4, 2, 1}, {4, 1, 2}},
                {"", {4, 2, 1}, {4, 2, 1}, {4, 1, 2}}};
   for (const auto& c : cases) {
     const std::string text = plate_dae(c.axis, "1 0 0 1");
@@ -326,6 +332,60 @@ TEST_F(MeshFormats, ColladaKeepsItsShapeWhereItsLooksAreBroken) {
     expect_size(mesh, {4, 2, 1});
     EXPECT_EQ(has(notes(), "its materials are left out, since they cannot be read"), std::string(colour) == "red") << image << notes();
   }
+}
+
+// A triangle with two sets of texture coordinates; "A" is that of its image.
+std::string two_sets_dae(const std::string& sets, const std::string& bound, const std::string& wrap = "") {
+  const auto source = [](const std::string& id, const std::string& values, int stride) {
+    return "<source id='" + id + "'><float_array id='" + id + "a' count='" + std::to_string(3 * stride) + "'>" + values +
+           "</float_array><technique_common><accessor source='#" + id + "a' count='3' stride='" +
+           std::to_string(stride) + "'>" +
+           (stride == 3 ? "<param name='X' type='float'/><param name='Y' type='float'/><param name='Z' type='float'/>"
+                        : "<param name='S' type='float'/><param name='T' type='float'/>") +
+           "</accessor></technique_common></source>";
+  };
+  return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset/>
+<library_images><image id="im"><init_from>t.png</init_from></image></library_images>
+<library_effects><effect id="e"><profile_COMMON>
+<newparam sid="su"><surface type="2D"><init_from>im</init_from></surface></newparam>
+<newparam sid="sa"><sampler2D><source>su</source>)" + wrap + R"(</sampler2D></newparam><technique sid="t"><phong><diffuse>
+<texture texture="sa" texcoord="A"/></diffuse></phong></technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="mat"><instance_effect url="#e"/></material></library_materials>
+<library_geometries><geometry id="g"><mesh>)" + source("p", "0 0 0 1 0 0 0 1 0", 3) + source("u", "0 0 0 0 0 0", 2) +
+         source("w", "1 1 1 1 1 1", 2) + R"(<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1" material="m"><input semantic="VERTEX" source="#v" offset="0"/>)" + sets + R"(
+<p>0 1 2</p></triangles></mesh>
+</geometry></library_geometries><library_visual_scenes><visual_scene id="s"><node>
+<instance_geometry url="#g"><bind_material><technique_common>
+<instance_material symbol="m" target="#mat">)" + bound + R"(</instance_material>
+</technique_common></bind_material></instance_geometry></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+TEST_F(MeshFormats, ColladaBindsSetsOfTextureCoordinates) {
+  write_png(folder_ / "t.png", RgbImage{2, 2, std::vector<std::uint8_t>(12, 90)});
+  const auto sets = [](int first, int second) {
+    return "<input semantic=\"TEXCOORD\" source=\"#u\" offset=\"0\" set=\"" + std::to_string(first) +
+           "\"/><input semantic=\"TEXCOORD\" source=\"#w\" offset=\"0\" set=\"" + std::to_string(second) + "\"/>";
+  };
+  const auto bound = [](int set) {
+    return "<bind_vertex_input semantic=\"A\" input_semantic=\"TEXCOORD\" input_set=\"" + std::to_string(set) + "\"/>";
+  };
+  const struct {
+    int first, second, bound;
+    float u;
+  } cases[] = {{0, 1, 0, 0}, {0, 1, 1, 1}, {1, 2, 1, 0}, {1, 2, 2, 1}};
+  for (const auto& c : cases) {
+    const TriangleMesh mesh = load("a.dae", two_sets_dae(sets(c.first, c.second), bound(c.bound)));
+    ASSERT_FALSE(mesh.paint_corners.empty());
+    EXPECT_EQ(mesh.paint_corners[0][0].u, c.u) << c.first << c.second << c.bound;
+    EXPECT_FALSE(has(notes(), "first set")) << notes();
+  }
+  load("a.dae", two_sets_dae(sets(0, 1), bound(5)));
+  EXPECT_TRUE(has(notes(), "the texture coordinates \"A\" of the effect \"e\" are not of one set in all meshes"))
+      << notes();
+  load("a.dae", two_sets_dae(sets(0, 1), bound(0), "<wrap_s> CLAMP </wrap_s><wrap_t>WRAP</wrap_t>"));
+  EXPECT_TRUE(has(notes(), "the wrapping CLAMP of images of the effect \"e\" is not drawn")) << notes();
 }
 
 // A ZIP archive with its files stored.

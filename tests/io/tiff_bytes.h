@@ -32,6 +32,29 @@ class TiffBytes {
     add(34735, 3, 12, {reinterpret_cast<const char*>(keys), sizeof keys});
     return *this;
   }
+  // Units of pixels and heights; 0: the file does not say. size: of a unit of pixels that the file defines
+  // (32767); below 0: the file has numbers, and none is the size.
+  TiffBytes& units(int unit, int vertical, double size = 0) {
+    std::string keys;
+    std::uint16_t count = 1;
+    const auto add_key = [&](int key, int tag, int value) {
+      for (const int part : {key, tag, 1, value}) put(keys, std::uint16_t(part));
+      ++count;
+    };
+    add_key(1024, 0, 1);
+    if (unit) add_key(3076, 0, unit);
+    if (size > 0) add_key(3077, 34736, 1);
+    if (vertical) add_key(4099, 0, vertical);
+    std::string head;
+    for (const int part : {1, 1, 0, count - 1}) put(head, std::uint16_t(part));
+    add(34735, 3, 4u * count, head + keys);
+    return size != 0 ? add_doubles(34736, {5, size}) : *this;
+  }
+  // GDAL's XML.
+  TiffBytes& metadata(const std::string& xml) {
+    add(42112, 2, std::uint32_t(xml.size() + 1), xml + '\0');
+    return *this;
+  }
   TiffBytes& no_data(const std::string& text) {
     add(42113, 2, std::uint32_t(text.size() + 1), text + '\0');
     return *this;

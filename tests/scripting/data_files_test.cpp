@@ -136,6 +136,20 @@ TEST(DataGrid, AnEsriGridIsReadWithItsGapsAndWrittenBack) {
   EXPECT_THROW(read_data_grid("ncols 3\nnrows 2\ncellsize 1\n1 2\n"), std::runtime_error);
 }
 
+TEST(DataGrid, TheHeadOfAnEsriGridHasAnyOrderAndCase) {
+  for (const char* head : {"nrows 2\nncols 3\ncellsize 5\n", "CELLSIZE 5\r\nNROWS 2\r\nNCOLS 3\r\n",
+                           "NODATA_value -9999\nxllcorner 0\nyllcorner 0\nNcols 3\nNrows 2\ncellsize 5\n"}) {
+    const std::string text = std::string(head) + "1 2 3\n4 5 6\n";
+    ASSERT_TRUE(is_data_grid(text)) << head;
+    const DataGrid grid = read_data_grid(text);
+    EXPECT_EQ(grid.columns, 3);
+    EXPECT_EQ(grid.spacing, 5);
+    EXPECT_EQ(grid.values[5], 6);
+  }
+  EXPECT_FALSE(is_data_grid("cellsize = 5\n")) << "Lua";
+  EXPECT_FALSE(is_data_grid("dxf 5\n"));
+}
+
 // Of a plane, every value is the plane's at the middle of its block, wherever the blocks lie.
 TEST(DataGrid, BlocksStayWhereTheyAreOnTheMap) {
   const auto plane = [](int columns, int rows) {

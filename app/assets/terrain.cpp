@@ -63,7 +63,7 @@ std::string find_file(const std::string& name, const std::vector<std::string>& f
   }
   throw InputError({"", 0, "pile.terrain.file", "no such file", "a mesh", "\"" + name + "\"",
                     looked.empty() ? "its folder is not known: name it with --assets, or `assets` in Python"
-                                   : "looked for " + looked + "; --assets names further folders"});
+                                   : "looked for " + looked + "; --assets, or `assets` in Python, names further folders"});
 }
 
 std::string hash_mesh(const TriangleMesh& mesh, double friction) {

@@ -214,10 +214,14 @@ class OwnTerrain(unittest.TestCase):
             with open(mission, "w", encoding="utf-8") as file:
                 file.write("return rubble.mission { pile = { layers = 0, terrain = { file = 'ramp.obj' } } }")
             subprocess.run([os.environ["RUBBLE_PROGRAM"], "settle", mission, "--quiet", "--out", out], check=True)
+            down = rubble.open_pile(out).cast_rays([[0.3, 0.1, 3]], [[0, 0, -1]])["distance"]
+            os.mkdir(os.path.join(folder, "moved"))
+            os.rename(os.path.join(folder, "ramp.obj"), os.path.join(folder, "moved", "ramp.obj"))
             with self.assertRaises(rubble.InputError) as raised:
                 rubble.open_pile(out)
             self.assertIn("`assets` in Python", str(raised.exception))
-            down = rubble.open_pile(out, assets=[folder]).cast_rays([[0.3, 0.1, 3]], [[0, 0, -1]])["distance"]
+            again = rubble.open_pile(out, assets=[os.path.join(folder, "moved")]).cast_rays([[0.3, 0.1, 3]], [[0, 0, -1]])["distance"]
+            self.assertEqual(down[0], again[0])
         self.assertAlmostEqual(down[0], 2.5, places=6)
 
 

@@ -6,9 +6,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
+#include <thread>
 
 #include "kernel/base/error.h"
 #include "kernel/base/system/file_sandbox.h"
@@ -77,10 +79,18 @@ int create_output_file(const std::string& path) {
   throw RunError("cannot create " + path + ": other processes write it all the time");
 }
 
+// Another that makes the same log holds it for a moment only.
 int create_log_file(const std::string& path) {
-  const int descriptor = create_output_file(path);
-  flock(descriptor, LOCK_UN);
-  return descriptor;
+  for (int i = 0;; ++i) {
+    try {
+      const int descriptor = create_output_file(path);
+      flock(descriptor, LOCK_UN);
+      return descriptor;
+    } catch (const RunError&) {
+      if (i == kMostTries) throw;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
 }
 
 void write_all(int descriptor, std::string_view bytes, const std::string& path) {

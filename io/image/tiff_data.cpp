@@ -11,7 +11,7 @@
 
 #include "io/image/data_picture.h"
 #include "io/image/picture_decoder.h"
-#include "io/import/text_scan.h"
+#include "io/base/text_scan.h"
 #include "kernel/base/error.h"
 #include "kernel/base/system/disk_cache.h"
 #include "kernel/base/system/isolated_worker.h"

@@ -13,7 +13,7 @@
 #include <map>
 #include <optional>
 
-#include "io/import/text_scan.h"
+#include "io/base/text_scan.h"
 #include "io/mesh_formats/collada_textures.h"
 #include "kernel/base/read_file.h"
 #include "kernel/base/system/file_sandbox.h"

@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "io/import/text_scan.h"
+#include "io/base/text_scan.h"
 #include "kernel/base/text.h"
 
 namespace rubble {

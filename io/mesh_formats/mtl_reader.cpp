@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "io/import/text_scan.h"
+#include "io/base/text_scan.h"
 #include "kernel/base/error.h"
 #include "kernel/base/read_file.h"
 #include "kernel/base/system/file_sandbox.h"
@@ -68,6 +68,7 @@ std::string plain_name(std::string_view name) { return without_quotes(without_co
 }  // namespace
 
 void MtlReader::read_libraries(std::string_view names) {
+  asked_ = true;
   if (read_file_of(without_quotes(trimmed(names))) || read_file_of(plain_name(names))) return;
   std::vector<std::string_view> words = split_words(without_comment(names));
   if (words.size() == 1) words[0] = without_comment(names);
@@ -265,7 +266,7 @@ void MtlReader::define_missing(bool vertex_colours) {
     }
     if (vertex_colours) material.colour = {1, 1, 1};
     const auto is_drawn = [of = number](const ImportedMesh& mesh) { return mesh.material == of; };
-    if (name != kDefaultMaterial && !lost_ && std::any_of(scene_.meshes.begin(), scene_.meshes.end(), is_drawn))
+    if (name != kDefaultMaterial && asked_ && !lost_ && std::any_of(scene_.meshes.begin(), scene_.meshes.end(), is_drawn))
       scene_.note("the material \"" + printable(plain_name(name)) + "\" is in no material file; its colour is left out");
   }
 }

@@ -39,6 +39,7 @@ class MtlReader {
   std::map<std::string, int> numbers_;  // of materials, by name
   std::set<int> defined_;               // materials that a library has
   std::string library_folder_;          // of the library that is read, from the folder of the OBJ file; "sub/"
+  bool asked_ = false;                  // the file names a library: without one, names of materials are names alone
   bool lost_ = false;                   // a library was not found, or cannot be read
   int current_ = -1;
 };

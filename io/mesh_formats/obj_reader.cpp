@@ -5,7 +5,7 @@
 
 #include "io/mesh_formats/mtl_reader.h"
 #include "io/import/polygon.h"
-#include "io/import/text_scan.h"
+#include "io/base/text_scan.h"
 #include "kernel/base/read_file.h"
 #include "kernel/base/text.h"
 

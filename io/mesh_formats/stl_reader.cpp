@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 
-#include "io/import/text_scan.h"
+#include "io/base/text_scan.h"
 #include "kernel/base/read_file.h"
 #include "kernel/base/text.h"
 

@@ -5,7 +5,7 @@
 
 #include "io/base/compressed_file.h"
 #include "io/base/srgb.h"
-#include "io/import/text_scan.h"
+#include "io/base/text_scan.h"
 #include "kernel/base/read_file.h"
 #include "kernel/base/text.h"
 

@@ -6,7 +6,7 @@
 #include "kernel/base/error.h"
 #include "kernel/base/number_text.h"
 #include "kernel/base/tables/text_table.h"
-#include "scripting/files/column_names.h"
+#include "scripting/values/column_names.h"
 
 namespace rubble {
 namespace {

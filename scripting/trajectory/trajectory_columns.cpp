@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "scripting/files/column_names.h"
+#include "scripting/values/column_names.h"
 
 namespace rubble {
 namespace {

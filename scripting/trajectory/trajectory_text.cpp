@@ -10,7 +10,7 @@
 #include "kernel/base/number_text.h"
 #include "kernel/base/portable_math.h"
 #include "kernel/base/tables/text_table.h"
-#include "scripting/files/column_names.h"
+#include "scripting/values/column_names.h"
 #include "scripting/trajectory/trajectory_columns.h"
 
 namespace rubble {

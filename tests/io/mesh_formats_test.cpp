@@ -9,7 +9,7 @@
 #include "io/base/atomic_file.h"
 #include "io/image/image_file.h"
 #include "io/import/polygon.h"
-#include "io/import/text_scan.h"
+#include "io/base/text_scan.h"
 #include "io/mesh/mesh_file.h"
 #include "io/mesh_formats/scene_reader.h"
 #include "kernel/base/error.h"

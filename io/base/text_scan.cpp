@@ -1,4 +1,4 @@
-#include "io/import/text_scan.h"
+#include "io/base/text_scan.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "scripting/files/column_names.h"
+#include "scripting/values/column_names.h"
 
 #include <algorithm>
 

@@ -16,7 +16,6 @@ namespace rubble {
 namespace {
 
 constexpr int kFacets = 32, kSpherePoints = 96;
-constexpr double kFarthestVertex = 1e4;  // of a mesh; unit: m
 constexpr float kPaintReflectance = 0.04f, kPaintRoughness = 0.6f;  // of what has a colour in the file; our choice
 
 // Golden-angle spiral. With a length the two halves are that far apart, along Z. unit: m
@@ -69,7 +68,7 @@ TriangleMesh load_scaled(const UrdfGeometry& g, MeshImporter& importer, std::vec
   if (g.scale.x * g.scale.y * g.scale.z < 0) turn_triangles(mesh);
   const Aabb box = mesh.bounds();
   const Vec3 far = max(box.max, -box.min);
-  if (const double most = std::max({far.x, far.y, far.z}); !(most <= kFarthestVertex))
+  if (const double most = std::max({far.x, far.y, far.z}); !(most <= kUrdfFarthest))
     throw InputError({g.file, 0, "scale", "makes the mesh too large", "vertices within 10000 m", brief_text(most) + " m", ""});
   return mesh;
 }

@@ -1,10 +1,10 @@
 #include "io/mesh/mesh_content.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <filesystem>
 #include <string_view>
 
+#include "io/base/text_scan.h"
 #include "io/import/imported_scene.h"
 #include "io/import/uri.h"
 #include "io/mesh_formats/gltf_document.h"
@@ -16,36 +16,32 @@
 namespace rubble {
 namespace {
 
-std::string mesh_extension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  return extension;
-}
-
-std::string_view unquoted_name(std::string_view text) {
-  const bool quoted = text.size() > 1 && text.front() == '"' && text.back() == '"';
-  return quoted ? text.substr(1, text.size() - 2) : text;
-}
-
 class FilesBeside {
  public:
-  explicit FilesBeside(const std::string& path) : folder_(std::filesystem::path(path).parent_path().string()) {}
+  explicit FilesBeside(const std::string& path) { also_beside(path); }
+
+  // Names are looked for beside that file, too, if they are not found before.
+  void also_beside(const std::string& path) { folders_.push_back(std::filesystem::path(path).parent_path().string()); }
 
   bool add(std::string_view name) {
-    const auto found = find_beside(folder_, std::string(name), "textures");
-    if (found && std::find(files_.begin(), files_.end(), *found) == files_.end()) files_.push_back(*found);
-    return found.has_value();
+    for (const std::string& folder : folders_) {
+      const auto found = find_beside(folder, std::string(name), "textures");
+      if (!found) continue;
+      if (std::find(files_.begin(), files_.end(), *found) == files_.end()) files_.push_back(*found);
+      return true;
+    }
+    return false;
   }
   // A name that may have blanks, or several names, or one after options.
   void add_words(std::string_view names) {
     const std::string_view whole = trimmed(names);
-    if (add(unquoted_name(whole))) return;
-    for (const std::string_view word : split_words(whole, 0).words) add(unquoted_name(word));
+    if (add(whole)) return;
+    for (const std::string_view word : split_words(whole, 0).words) add(word);
   }
   std::vector<std::string> take() { return std::move(files_); }
 
  private:
-  std::string folder_;
+  std::vector<std::string> folders_;
   std::vector<std::string> files_;
 };
 
@@ -66,12 +62,10 @@ void add_gltf(const std::string& path, MeshContent content, FilesBeside& files) 
 // each(keyword, rest) of every line.
 template <typename Each>
 void for_each_line(std::string_view text, const Each& each) {
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    const std::string_view line = trimmed(text.substr(0, end));
+  for (const std::string_view whole : split_lines(text)) {
+    const std::string_view line = trimmed(whole);
     const std::size_t blank = line.find_first_of(" \t");
     if (blank != std::string_view::npos) each(line.substr(0, blank), line.substr(blank));
-    text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
   }
 }
 
@@ -90,13 +84,12 @@ void add_mtl(const std::string& text, FilesBeside& files) {
 
 // <init_from>wood.png</init_from>, of COLLADA 1.5 with <ref> around the name.
 void add_dae(const std::string& text, FilesBeside& files) {
-  const std::string_view open = "<init_from>", close = "</init_from>";
-  for (std::size_t at = text.find(open); at != std::string::npos; at = text.find(open, at)) {
-    at += open.size();
-    std::string name = text.substr(at, text.find(close, at) - at);
-    for (const std::string_view tag : {"<ref>", "</ref>", "file://"})
-      if (const std::size_t found = name.find(tag); found != std::string::npos) name.erase(found, tag.size());
-    files.add(trimmed(name));
+  constexpr std::string_view kScheme = "file://";
+  for (XmlScanner tags(text); tags.next();) {
+    if (!tags.closes() || (tags.name() != "init_from" && tags.name() != "ref")) continue;
+    const std::string content = tags.text();
+    const std::string_view name = trimmed(content);
+    files.add(name.substr(name.substr(0, kScheme.size()) == kScheme ? kScheme.size() : 0));
   }
 }
 
@@ -104,7 +97,7 @@ void add_dae(const std::string& text, FilesBeside& files) {
 
 std::vector<std::string> list_files_of_mesh(const std::string& path, MeshContent content) {
   FilesBeside files(path);
-  const std::string extension = mesh_extension(path);
+  const std::string extension = lower_case(std::filesystem::path(path).extension().string());
   if (extension == ".gltf" || extension == ".glb") add_gltf(path, content, files);
   if (content == MeshContent::geometry) return files.take();
   if (extension == ".dae") add_dae(read_file(path), files);
@@ -113,6 +106,7 @@ std::vector<std::string> list_files_of_mesh(const std::string& path, MeshContent
     std::vector<std::string> all = files.take();
     for (std::size_t i = 0, libraries = all.size(); i < libraries; ++i) {
       FilesBeside images(path);
+      images.also_beside(all[i]);
       add_mtl(read_file(all[i]), images);
       for (std::string& image : images.take()) all.push_back(std::move(image));
     }

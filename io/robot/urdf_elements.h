@@ -18,8 +18,6 @@
 
 namespace rubble {
 
-inline constexpr double kUrdfFarthest = 1e4;  // of a place, a size or a slider's stop: what is larger has wrong units; unit: m
-
 class UrdfElements {
  public:
   // path: of the file, for messages.

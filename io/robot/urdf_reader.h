@@ -55,6 +55,8 @@ struct UrdfJoint {
   std::optional<Mimic> mimic;
 };
 
+inline constexpr double kUrdfFarthest = 1e4;  // of a place, a size or a slider's stop: what is larger has wrong units; unit: m
+
 struct UrdfFile {
   std::string name, path;
   bool fixed = false;             // the root is called `world`: it stands still, as in Gazebo and ROS

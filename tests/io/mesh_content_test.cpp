@@ -57,7 +57,10 @@ TEST_F(MeshContentFiles, AreMaterialsAndImagesOfObjAndCollada) {
   EXPECT_EQ(list_files_of_mesh(obj, MeshContent::all).size(), 2U);
   EXPECT_TRUE(follows(obj, "textures/wood.png", MeshContent::all));
   EXPECT_FALSE(follows(obj, "textures/wood.png", MeshContent::geometry));
-  const std::string dae = put("a.dae", "<image><init_from>./one.png</init_from></image><init_from><ref>two.png</ref></init_from>");
+  const std::string apart = put("b.obj", "mtllib materials/b.mtl # paint\n");
+  put("materials/b.mtl", "newmtl b\nmap_Kd stone.png\n");
+  EXPECT_TRUE(follows(apart, "materials/stone.png", MeshContent::all)) << "beside its library";
+  const std::string dae = put("a.dae", "<image><!-- <init_from>none.png</init_from> --><init_from>./one.png</init_from></image><init_from><ref>two.png</ref></init_from>");
   put("one.png", ""), put("two.png", "");
   EXPECT_TRUE(follows(dae, "one.png", MeshContent::all));
   EXPECT_TRUE(follows(dae, "two.png", MeshContent::all));
